@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "action/motion.hpp"
+
+namespace tactus::action {
+
+/// The insertion attempt at a target supposed at `base_from_target`: from the retreat plane along the approach axis to the seated pose, in finer steps and slower over the last
+/// `approach_depth`. An ordinary guarded motion. Null if the arm can't follow it.
+MotionPtr insertion(const Task& task, const Pose& base_from_target, const JointVector& near);
+
+}  // namespace tactus::action

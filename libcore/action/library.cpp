@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "action/library.hpp"
+
+#include <bit>
+
+#include "action/primitives.hpp"
+#include "support/rng.hpp"
+
+namespace tactus::action {
+namespace {
+
+constexpr std::size_t kept_configurations = 4096;
+
+}  // namespace
+
+std::uint64_t path_id(const JointPath& path) {
+  std::uint64_t id = support::mix(path.size());
+  for (const JointVector& q : path)
+    for (const double value : q) id = support::mix(id ^ std::bit_cast<std::uint64_t>(value));
+  return id;
+}
+
+Action make_action(const Task& task, Kind kind, JointPath path, std::size_t lead, const std::vector<motion::PacedSegment>& pace) {
+  const scene::Scene& scene = task.scene();
+  Action action;
+  action.kind = kind;
+  action.id = path_id(path);
+  action.times = motion::time_path(*scene.robot, scene.tool_link, path, pace);
+  const motion::ToolTravel travel = motion::tool_travel(*scene.robot, scene.tool_link, path);
+  action.length = travel.metres;
+  action.full_cost = task.cost(travel) + task.options().cost.action;
+  action.bodies = BodyPath(task.bodies(), path);
+  action.lead = lead;
+  action.path = std::move(path);
+  return action;
+}
+
+std::vector<MotionPtr> ActionLibrary::primitives_at(const JointVector& q) {
+  const std::vector<double> key(q.data(), q.data() + q.size());
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = primitives_.find(key); found != primitives_.end()) return found->second;
+  }
+  std::vector<MotionPtr> motions = primitives(task_, q);
+  const std::lock_guard lock(mutex_);
+  if (primitives_.size() >= kept_configurations) primitives_.clear();
+  return primitives_.try_emplace(key, std::move(motions)).first->second;
+}
+
+JointPath ActionLibrary::lead_in(const JointVector& q, const JointVector& start, const support::Deadline& deadline) const {
+  const contact::KnownWorld& world = task_.known_world();
+  const double step = task_.options().motion.step;
+  const int tool_link = task_.scene().tool_link;
+  JointPath path{q};
+  Pose back = task_.base_from_tool(q);
+  const Pose goal = task_.base_from_tool(start);
+  const Vector3 axis = task_.frame().base_from_search.linear().col(2);
+  const double retreat = axis.dot(back.translation() - goal.translation());
+  if (retreat > 1e-6) {
+    back.translation() -= retreat * axis;
+    if (const auto leg = motion::straight_tool_path(world, tool_link, q, back, step)) path = joined(std::move(path), *leg);
+  }
+  if (const auto across = motion::straight_tool_path(world, tool_link, path.back(), goal, step))
+    if ((across->back() - start).cwiseAbs().maxCoeff() < 1e-3) {
+      JointPath leg = *across;
+      leg.back() = start;
+      return joined(std::move(path), leg);
+    }
+  motion::ConnectOptions options;
+  options.step = step;
+  const auto way = motion::connect(world, path.back(), start, options, deadline);
+  return way ? joined(std::move(path), *way) : JointPath{};
+}
+
+std::optional<Action> ActionLibrary::realise(const JointVector& q, const Motion& motion, const support::Deadline& deadline) const {
+  const MotionOptions& options = task_.options().motion;
+  if (!motion.anchored) return make_action(task_, motion.kind, motion.path, 0, motion.pace);
+  const JointPath lead = lead_in(q, motion.path.front(), deadline);
+  if (lead.empty()) return std::nullopt;
+  std::vector<motion::PacedSegment> pace{{0, {options.speed, options.acceleration, options.joint_acceleration}}};
+  for (motion::PacedSegment segment : motion.pace) {
+    segment.first += lead.size() - 1;
+    pace.push_back(segment);
+  }
+  if (lead.size() == 1) pace.erase(pace.begin());
+  Action action = make_action(task_, motion.kind, joined(lead, motion.path), lead.size() - 1, pace);
+  action.supposed_target = motion.supposed_target;
+  return action;
+}
+
+}  // namespace tactus::action

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "action/primitives.hpp"
+
+#include <algorithm>
+
+namespace tactus::action {
+namespace {
+
+/// One ray: the longest motion, and its prefixes at the shorter lengths. `extent(i)` is how far waypoint i is along it.
+template <typename Extent>
+void add_ray(const Task& task, Kind kind, const JointVector& q, const Pose& base_from_goal, std::vector<double> lengths, Extent extent,
+             std::vector<MotionPtr>& motions) {
+  const MotionOptions& options = task.options().motion;
+  auto path = motion::straight_tool_path(task.known_world(), task.scene().tool_link, q, base_from_goal, options.step, true);
+  if (!path || path->size() < 2) return;
+  Motion longest;
+  longest.kind = kind;
+  longest.path = std::move(*path);
+  longest.pace = {{0, {options.approach_speed, options.acceleration, options.joint_acceleration}}};
+  const MotionPtr whole = finished(task, std::move(longest));
+  std::sort(lengths.begin(), lengths.end());
+  std::size_t last = 1;
+  for (std::size_t i = 0; i + 1 < lengths.size(); ++i) {
+    std::size_t waypoints = last;
+    while (waypoints < whole->path.size() && extent(whole->path[waypoints - 1]) < lengths[i] - 1e-6) ++waypoints;
+    if (waypoints >= whole->path.size() || waypoints < 2) continue;
+    motions.push_back(truncated(task, *whole, waypoints));
+    last = waypoints;
+  }
+  motions.push_back(whole);
+}
+
+}  // namespace
+
+std::vector<MotionPtr> primitives(const Task& task, const JointVector& q) {
+  const ActionOptions& options = task.options().actions;
+  const Pose base_from_tool = task.base_from_tool(q);
+  std::vector<MotionPtr> motions;
+  if (!options.primitive_lengths.empty()) {
+    const double longest = *std::max_element(options.primitive_lengths.begin(), options.primitive_lengths.end());
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double sign : {1.0, -1.0}) {
+        Pose goal = base_from_tool;
+        goal.translation() += sign * longest * task.frame().base_from_search.linear().col(axis);
+        const auto moved = [&](const JointVector& at) {
+          return (task.base_from_tool(at).translation() - base_from_tool.translation()).norm();
+        };
+        add_ray(task, Kind::move, q, goal, options.primitive_lengths, moved, motions);
+      }
+  }
+  if (!options.primitive_angles.empty()) {
+    const double largest = *std::max_element(options.primitive_angles.begin(), options.primitive_angles.end());
+    for (const double sign : {1.0, -1.0}) {
+      Pose goal = base_from_tool;
+      const Vector3 axis = task.frame().base_from_search.linear().col(2);
+      goal.linear() = Eigen::AngleAxisd(sign * largest, axis).toRotationMatrix() * base_from_tool.linear();
+      const auto turned = [&](const JointVector& at) { return geometry::angle_between(base_from_tool, task.base_from_tool(at)); };
+      add_ray(task, Kind::turn, q, goal, options.primitive_angles, turned, motions);
+    }
+  }
+  return motions;
+}
+
+}  // namespace tactus::action

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "action/probes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::action {
+namespace {
+
+using geometry::Box;
+
+constexpr double beside = 0.005;  // m between the tool and the region where a sweep goes down
+
+/// Evenly spaced offsets over a range: its middle if it is narrower than the spacing, both ends inset by half a spacing otherwise.
+std::vector<double> lines(double low, double high, double spacing, int most) {
+  const int count = std::clamp(static_cast<int>(std::lround((high - low) / spacing)), 1, most);
+  std::vector<double> offsets;
+  for (int i = 0; i < count; ++i) offsets.push_back(low + (high - low) * (i + 0.5) / count);
+  return offsets;
+}
+
+/// Tool positions of a sweep along axis `along` (0 or 1) at `across` on the other: over the start, down to `z`, through the region.
+std::vector<Vector3> sweep_positions(const scene::SearchFrame& frame, const Box& region, int along, double sign, double across, double z) {
+  const double before = sign > 0.0 ? region.low[along] - frame.tool_extent.high[along] - beside
+                                   : region.high[along] - frame.tool_extent.low[along] + beside;
+  const double beyond = sign > 0.0 ? region.high[along] : region.low[along];
+  Vector3 start;
+  start[along] = before;
+  start[1 - along] = across;
+  start.z() = frame.standoff;
+  Vector3 down = start, end = start;
+  down.z() = end.z() = z;
+  end[along] = beyond;
+  return {start, down, end};
+}
+
+}  // namespace
+
+MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3>& positions, double turn, const JointVector& near) {
+  const MotionOptions& options = task.options().motion;
+  const auto start = task.posture(task.frame().base_from_tool(positions.front(), turn), near);
+  if (!start) return nullptr;
+  Motion motion;
+  motion.kind = kind;
+  motion.anchored = true;
+  motion.path = {*start};
+  motion.pace = {{0, {options.approach_speed, options.acceleration, options.joint_acceleration}}};
+  for (std::size_t i = 1; i < positions.size(); ++i) {
+    const Pose goal = task.frame().base_from_tool(positions[i], turn);
+    const auto leg = motion::straight_tool_path(task.known_world(), task.scene().tool_link, motion.path.back(), goal, options.step);
+    if (!leg) return nullptr;
+    motion.path = joined(std::move(motion.path), *leg);
+  }
+  return finished(task, std::move(motion));
+}
+
+std::vector<MotionPtr> probes(const Task& task, const Box& region, const JointVector& near, int most) {
+  const ActionOptions& options = task.options().actions;
+  const scene::SearchFrame& frame = task.frame();
+  std::vector<MotionPtr> motions;
+  const auto add = [&](Kind kind, const std::vector<Vector3>& positions) {
+    if (MotionPtr motion = anchored_motion(task, kind, positions, 0.0, near)) motions.push_back(std::move(motion));
+  };
+  for (const double depth : options.probe_depth) {
+    const double z = std::min(region.low.z() + depth, region.high.z()) - frame.tool_extent.high.z();
+    for (const int along : {0, 1})
+      for (const double across : lines(region.low[1 - along], region.high[1 - along], options.probe_spacing, most))
+        for (const double sign : {1.0, -1.0}) add(Kind::sweep, sweep_positions(frame, region, along, sign, across, z));
+    for (const double u : lines(region.low.x(), region.high.x(), 2.0 * options.probe_spacing, (most + 1) / 2))
+      for (const double v : lines(region.low.y(), region.high.y(), 2.0 * options.probe_spacing, (most + 1) / 2))
+        add(Kind::poke, {{u, v, frame.standoff}, {u, v, z}});
+  }
+  return motions;
+}
+
+}  // namespace tactus::action

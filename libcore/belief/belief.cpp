@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "belief/belief.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/error.hpp"
+
+namespace tactus::belief {
+namespace {
+
+using support::Error;
+using support::Status;
+
+constexpr std::size_t tries_per_pose = 40;
+
+/// An index drawn in proportion to the weights, given their running sums.
+std::size_t draw_index(const std::vector<double>& running_sum, support::Rng& rng) {
+  const double at = rng.uniform() * running_sum.back();
+  const auto found = std::upper_bound(running_sum.begin(), running_sum.end(), at);
+  return std::min<std::size_t>(static_cast<std::size_t>(found - running_sum.begin()), running_sum.size() - 1);
+}
+
+Pose draw_in(const CellBelief& cells, const Cell& cell, support::Rng& rng) {
+  PoseVector v = cell.centre;
+  const PoseVector half = cells.half_width(cell);
+  for (int d = 0; d < 6; ++d) v[d] += half[d] * rng.uniform(-1.0, 1.0);
+  return geometry::pose_from(v);
+}
+
+}  // namespace
+
+Model::Model(std::shared_ptr<const Task> t, const Options& o)
+    : task(std::move(t)), options(o), voxels(std::make_shared<VoxelModel>(*task, o.voxel_size)) {}
+
+Belief::Belief(std::shared_ptr<const Model> model, const JointVector& q) : model_(std::move(model)) {
+  check_configuration(q, "q");
+  q_ = q;
+  if (model_->options.kind == Kind::hierarchical)
+    voxels_.emplace(model_->voxels);
+  else
+    cells_.emplace(task(), model_->options.cells, [](const Pose&, double) { return true; });
+}
+
+void Belief::check_configuration(const JointVector& q, const char* argument) const {
+  const int dof = task().scene().robot->dof();
+  if (q.size() != dof)
+    throw Error(Status::invalid_argument, std::string(argument) + ": found " + std::to_string(q.size()) + " joints, expected " + std::to_string(dof));
+  for (int j = 0; j < dof; ++j)
+    if (!std::isfinite(q[j]))
+      throw Error(Status::invalid_argument, std::string(argument) + "[" + std::to_string(j) + "] (" + task().scene().robot->joints[j].name +
+                                                "): found a value that is not finite, expected a joint position");
+  const std::string collision = task().known_world().describe_collision(q);
+  if (!collision.empty())
+    throw Error(Status::start_in_collision, std::string(argument) + ": found " + collision + ", expected a configuration inside the limits and free of collisions");
+}
+
+void Belief::set_configuration(const JointVector& q) {
+  check_configuration(q, "q");
+  q_ = q;
+}
+
+void Belief::step(const Action& action, const Observation& observation) {
+  const Stop stop = locate(task(), action, observation);
+  Belief next = *this;
+  next.q_ = action.path[stop.last_free];
+  if (!observation.contact && stop.segment > stop.last_free) next.q_ = observation.q;
+  next.history_.push_back(trace_of(task(), action, observation, stop));
+  bool possible = true;
+  if (next.voxels_) {
+    next.voxels_->update(task(), next.history_.back());
+    const std::size_t left = next.voxels_->possibly_occupied().count();
+    possible = left > 0 && (left > model_->options.delta || next.hand_over());
+  } else {
+    possible = next.cells_->update(task(), next.history_.back()) && next.cells_->refine(task(), next.history_);
+  }
+  if (!possible) {
+    const JointVector q = next.q_;
+    next = *this;
+    next.q_ = q;
+    next.health_ = Health::contradicted;
+  }
+  *this = std::move(next);
+}
+
+/// |PO| <= delta: the cells whose target may lie inside PO and that may have given every observation take over.
+bool Belief::hand_over() {
+  const auto keep = [this](const Pose& pose, double radius) {
+    return !voxels_->excludes(pose, radius) &&
+           std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return may_reproduce(task(), trace, pose, radius); });
+  };
+  cells_.emplace(task(), model_->options.cells, keep);
+  voxels_.reset();
+  return !cells_->cells().empty() && cells_->refine(task(), history_);
+}
+
+bool Belief::is_goal() const {
+  if (!cells_) return false;
+  const Pose base_from_tool = task().base_from_tool(q_);
+  return std::all_of(cells_->cells().begin(), cells_->cells().end(),
+                     [&](const Cell& cell) { return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre)); });
+}
+
+std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng) const {
+  const std::vector<Cell>& cells = cells_->cells();
+  std::vector<double> running_sum;
+  for (const Cell& cell : cells) running_sum.push_back(cells_->volume(cell) + (running_sum.empty() ? 0.0 : running_sum.back()));
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count; ++i) {
+    const Pose pose = draw_in(*cells_, cells[draw_index(running_sum, rng)], rng);
+    if (std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return reproduces(task(), trace, pose); })) poses.push_back(pose);
+  }
+  if (poses.empty()) poses.push_back(geometry::pose_from(cells[draw_index(running_sum, rng)].centre));
+  return poses;
+}
+
+}  // namespace tactus::belief

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "belief/cells.hpp"
+#include "belief/voxels.hpp"
+#include "support/rng.hpp"
+
+namespace tactus::belief {
+
+enum class Kind : std::int32_t { hierarchical = 1, particles = 2 };
+enum class Phase : std::int32_t { voxels = 1, poses = 2 };
+enum class Health : std::int32_t { good = 0, contradicted = 1 };
+
+struct Options {
+  Kind kind = Kind::hierarchical;
+  double voxel_size = 0.01;   ///< m
+  std::size_t delta = 3000;   ///< voxels: with so many or fewer in PO, poses take over
+  CellOptions cells;
+  std::size_t particles = 200;  ///< poses drawn for planning
+};
+
+/// What is const of every belief of a scenario. Shared.
+struct Model {
+  std::shared_ptr<const Task> task;
+  Options options;
+  std::shared_ptr<const VoxelModel> voxels;
+
+  Model(std::shared_ptr<const Task> task, const Options& options);
+};
+
+struct Summary {
+  Phase phase = Phase::voxels;
+  Health health = Health::good;
+  std::size_t observations = 0, contacts = 0;
+  std::size_t possibly_occupied = 0;  ///< voxels; 0 in the pose phase
+  double volume = 0.0;                ///< m^3 of PO; 0 in the pose phase
+  std::size_t cells = 0;              ///< 0 in the voxel phase
+  double bits = 0.0;                  ///< log2 of how many task tolerances the belief spans
+  PoseVector mean{}, extent{};        ///< of the target's pose: middle (angles: circular mean) and full extents, x y z roll pitch yaw
+  std::array<double, 36> covariance{};  ///< of the same six, row-major
+};
+
+/// The robot's configuration and what is known of the target's pose: voxels first (phase 1), cells of poses after the hand-over (phase 2), or cells throughout.
+/// A correct observation never removes the true pose. A value: copies are independent. One thread at a time.
+class Belief {
+ public:
+  /// Throws `invalid_argument` for a NaN or a wrong number of joints, `start_in_collision` for a configuration that is not free.
+  Belief(std::shared_ptr<const Model> model, const JointVector& q);
+
+  /// Takes in one observation. The configuration becomes the last free waypoint. An observation that contradicts everything sets the health, and is left out.
+  /// Throws as `locate`; then nothing has changed.
+  void step(const Action& action, const Observation& observation);
+
+  void set_configuration(const JointVector& q);
+
+  const Model& model() const { return *model_; }
+  const std::shared_ptr<const Model>& shared_model() const { return model_; }
+  const Task& task() const { return *model_->task; }
+  const JointVector& configuration() const { return q_; }
+  const std::vector<Trace>& history() const { return history_; }
+  Phase phase() const { return cells_ ? Phase::poses : Phase::voxels; }
+  Health health() const { return health_; }
+  const VoxelBelief& voxels() const { return *voxels_; }   ///< phase 1 only
+  const CellBelief& cells() const { return *cells_; }      ///< phase 2 only
+
+  /// At the present configuration every surviving pose has the tool seated within tolerance.
+  bool is_goal() const;
+
+  /// Up to `count` poses drawn uniformly from the cells that reproduce the whole history exactly (phase 2 only). Fewer, down to one, where they are hard to find;
+  /// at worst a cell's centre.
+  std::vector<Pose> draw(std::size_t count, support::Rng& rng) const;
+
+  Summary summary() const;
+
+  /// The whole state as bytes, versioned and with a checksum; `restore` gives a belief that acts like this one. Throws `bad_saved_state`, `wrong_scenario`.
+  std::vector<std::uint8_t> save() const;
+  static Belief restore(std::shared_ptr<const Model> model, const std::uint8_t* bytes, std::size_t size);
+
+ private:
+  explicit Belief(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+  void check_configuration(const JointVector& q, const char* argument) const;
+  bool hand_over();
+
+  std::shared_ptr<const Model> model_;
+  JointVector q_;
+  std::vector<Trace> history_;
+  Health health_ = Health::good;
+  std::optional<VoxelBelief> voxels_;
+  std::optional<CellBelief> cells_;
+};
+
+}  // namespace tactus::belief

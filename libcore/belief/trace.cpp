@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "belief/trace.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/error.hpp"
+
+namespace tactus::belief {
+namespace {
+
+using support::Error;
+using support::Status;
+
+constexpr double tie = 1e-9;  // rad: passes of one path through the same configuration
+
+void check(const Task& task, const Observation& observation) {
+  const int dof = task.scene().robot->dof();
+  if (observation.q.size() != dof)
+    throw Error(Status::invalid_argument, "observation.joints: found " + std::to_string(observation.q.size()) + " values, expected " + std::to_string(dof));
+  for (int j = 0; j < dof; ++j)
+    if (!std::isfinite(observation.q[j]))
+      throw Error(Status::invalid_argument, "observation.joints[" + std::to_string(j) + "] (" + task.scene().robot->joints[j].name +
+                                                "): found a value that is not finite, expected a joint position");
+}
+
+double bound(const Task& task, const JointVector& a, const JointVector& b) {
+  return robot::motion_bound(*task.scene().robot, task.known_world().link_reach(), a, b);
+}
+
+JointVector between(const JointVector& from, const JointVector& to, double fraction) { return from + fraction * (to - from); }
+
+/// The configuration `back` metres of motion before the stop on its segment; the segment's beginning if that is nearer.
+JointVector backed_off(const Task& task, const JointVector& from, const JointVector& stop, double back) {
+  const double length = bound(task, from, stop);
+  return length <= back ? from : between(stop, from, back / length);
+}
+
+}  // namespace
+
+Stop locate(const Task& task, const Action& action, const Observation& observation) {
+  check(task, observation);
+  const JointPath& path = action.path;
+  Stop best;
+  double nearest = (path.front() - observation.q).norm();
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const JointVector along = path[i] - path[i - 1];
+    const double length = along.squaredNorm();
+    const double fraction = length > 0.0 ? std::clamp(along.dot(observation.q - path[i - 1]) / length, 0.0, 1.0) : 1.0;
+    const double away = (between(path[i - 1], path[i], fraction) - observation.q).norm();
+    const bool nearer = observation.contact ? away < nearest - tie : away <= nearest + tie;
+    if (!nearer || (fraction == 0.0 && away >= nearest - tie)) continue;
+    nearest = std::min(nearest, away);
+    best = {i, fraction, 0};
+  }
+  const JointVector on_path = best.segment == 0 ? path.front() : between(path[best.segment - 1], path[best.segment], best.fraction);
+  const double off = bound(task, on_path, observation.q), allowed = std::max(0.001, task.options().stop_tolerance);
+  if (off > allowed)
+    throw Error(Status::stop_off_path, "observation.joints: found a stop up to " + std::to_string(1000.0 * off) +
+                                           " mm off the action's path, expected at most " + std::to_string(1000.0 * allowed) +
+                                           " mm; after a jog use set_configuration instead");
+  if (!observation.contact) {
+    best.last_free = best.segment == 0 || best.fraction >= 1.0 - 1e-9 ? best.segment : best.segment - 1;
+    return best;
+  }
+  best.last_free = best.segment == 0 ? 0 : best.segment - 1;
+  while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < task.options().stop_tolerance) --best.last_free;
+  return best;
+}
+
+Trace trace_of(const Task& task, const Action& action, const Observation& observation, const Stop& stop) {
+  Trace trace;
+  trace.action_id = action.id;
+  trace.kind = action.kind;
+  trace.contact = observation.contact;
+  trace.outcome = observation.contact ? stop.segment : (stop.last_free + 1 == action.path.size() ? action.path.size() : stop.last_free);
+  trace.path.assign(action.path.begin(), action.path.begin() + static_cast<std::ptrdiff_t>(stop.last_free) + 1);
+  if (observation.contact) {
+    const JointVector free = backed_off(task, trace.path.back(), observation.q, task.options().stop_tolerance);
+    if (stop.segment == stop.last_free + 1 && free != trace.path.back()) trace.path.push_back(free);
+    trace.path.push_back(observation.q);
+  } else if (stop.segment > stop.last_free) {
+    trace.path.push_back(observation.q);
+  }
+  trace.bodies = BodyPath(task.bodies(), trace.path);
+  return trace;
+}
+
+bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_target) {
+  const contact::TargetContact& target = task.target_contact();
+  const std::size_t last = trace.bodies.size() - 1;
+  if (!trace.contact) return !target.first_within(trace.bodies, base_from_target, 0.0, 0);
+  if (!target.within(trace.bodies, last, base_from_target, target.margin())) return false;
+  const auto first = target.first_within(trace.bodies, base_from_target, 0.0, 0);
+  return !first || *first == last;
+}
+
+bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius) {
+  const contact::TargetContact& target = task.target_contact();
+  const std::size_t last = trace.bodies.size() - 1;
+  const double sound = radius + target.margin();
+  if (trace.contact && !target.within(trace.bodies, last, base_from_target, sound)) return false;
+  const auto first = target.first_certain_contact(trace.bodies, base_from_target, sound, 0);
+  return !first || (trace.contact && *first == last);
+}
+
+}  // namespace tactus::belief

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/body_path.hpp"
+
+#include <cmath>
+
+namespace tactus::contact {
+namespace {
+
+constexpr double tool_leaf_radius = 0.003;
+constexpr double link_leaf_radius = 0.01;
+
+bool moves(const robot::RobotModel& model, int link) {
+  for (; link >= 0; link = model.links[link].parent)
+    if (model.links[link].joint >= 0) return true;
+  return false;
+}
+
+/// How far any point of the sphere moves between two poses of its frame.
+double sphere_motion(const geometry::Sphere& sphere, const Pose& from, const Pose& to) {
+  const double chord = 2.0 * std::sin(0.5 * geometry::angle_between(from, to));
+  return (to * sphere.centre - from * sphere.centre).norm() + chord * sphere.radius;
+}
+
+}  // namespace
+
+RobotBodies::RobotBodies(std::shared_ptr<const robot::RobotModel> model, int tool_link, const Mesh& tool)
+    : model_(std::move(model)), tool_link_(tool_link) {
+  bodies_.push_back(std::make_unique<Body>(tool, tool_leaf_radius));
+  links_.push_back(tool_link);
+  for (int link = static_cast<int>(model_->links.size()) - 1; link >= 0; --link) {
+    Mesh mesh;
+    for (const Mesh& shape : model_->links[link].shapes) geometry::append(mesh, shape);
+    if (mesh.triangles.empty() || !moves(*model_, link)) continue;
+    bodies_.push_back(std::make_unique<Body>(mesh, link_leaf_radius));
+    links_.push_back(link);
+  }
+}
+
+void RobotBodies::append_poses(const robot::JointVector& q, std::vector<Pose>& poses) const {
+  std::vector<Pose> base_from_link;
+  robot::forward(*model_, q, base_from_link);
+  for (const int link : links_) poses.push_back(base_from_link[link]);
+}
+
+BodyPath::BodyPath(const RobotBodies& bodies, const std::vector<robot::JointVector>& waypoints) : bodies_(bodies.size()) {
+  poses_.reserve(bodies_ * waypoints.size());
+  for (const robot::JointVector& q : waypoints) bodies.append_poses(q, poses_);
+  travelled_.assign(poses_.size(), 0.0);
+  for (std::size_t i = bodies_; i < poses_.size(); ++i)
+    travelled_[i] = travelled_[i - bodies_] +
+                    sphere_motion(bodies.body(i % bodies_).bounding_sphere(), poses_[i - bodies_], poses_[i]);
+}
+
+}  // namespace tactus::contact

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/body.hpp"
+#include "robot/kinematics.hpp"
+
+namespace tactus::contact {
+
+/// The bodies of a robot that may touch the target: the tool, and every link that has a shape and moves. Const, shared.
+class RobotBodies {
+ public:
+  /// `tool` stands in the tool link's frame. The tool is body 0, then the links from the tip to the base.
+  RobotBodies(std::shared_ptr<const robot::RobotModel> model, int tool_link, const Mesh& tool);
+
+  std::size_t size() const { return bodies_.size(); }
+  const Body& body(std::size_t b) const { return *bodies_[b]; }
+  int link(std::size_t b) const { return links_[b]; }
+  int tool_link() const { return tool_link_; }
+  const robot::RobotModel& model() const { return *model_; }
+
+  /// Pose of every body in the base frame at `q`, appended to `poses`.
+  void append_poses(const robot::JointVector& q, std::vector<Pose>& poses) const;
+
+ private:
+  std::shared_ptr<const robot::RobotModel> model_;
+  int tool_link_;
+  std::vector<std::unique_ptr<const Body>> bodies_;
+  std::vector<int> links_;
+};
+
+/// Where the bodies are at each waypoint of a joint path, and how far they can have moved by then.
+class BodyPath {
+ public:
+  BodyPath() = default;
+  BodyPath(const RobotBodies& bodies, const std::vector<robot::JointVector>& waypoints);
+
+  std::size_t size() const { return bodies_ == 0 ? 0 : poses_.size() / bodies_; }   ///< waypoints
+  const Pose& base_from_body(std::size_t waypoint, std::size_t body) const { return poses_[waypoint * bodies_ + body]; }
+  /// No point of the body has moved farther than `travelled(j, b) - travelled(i, b)` between the waypoints i < j. Metres.
+  double travelled(std::size_t waypoint, std::size_t body) const { return travelled_[waypoint * bodies_ + body]; }
+
+ private:
+  std::size_t bodies_ = 0;
+  std::vector<Pose> poses_;
+  std::vector<double> travelled_;
+};
+
+}  // namespace tactus::contact

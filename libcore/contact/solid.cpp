@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/solid.hpp"
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/math/bv/OBB.h>
+#include <fcl/narrowphase/collision.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "support/error.hpp"
+
+namespace tactus::contact {
+
+using geometry::Box;
+using geometry::Mesh;
+using geometry::Pose;
+using geometry::Vector3;
+using support::Error;
+using support::Status;
+
+struct Solid::Tree {
+  fcl::BVHModel<fcl::OBBd> model;
+};
+
+namespace {
+
+void check_mesh(const Mesh& mesh, const std::string& name) {
+  const auto count = static_cast<std::int32_t>(mesh.vertices.size());
+  for (const Vector3& vertex : mesh.vertices)
+    if (!vertex.allFinite()) throw Error(Status::bad_mesh, name + ": found a vertex that is not finite");
+  for (const geometry::Triangle& triangle : mesh.triangles)
+    for (const std::int32_t corner : triangle)
+      if (corner < 0 || corner >= count)
+        throw Error(Status::bad_mesh, name + ": found a triangle with vertex " + std::to_string(corner) +
+                                          ", expected one of 0 .. " + std::to_string(count - 1));
+}
+
+void build(fcl::BVHModel<fcl::OBBd>& model, const Mesh& mesh, const std::string& name) {
+  std::vector<fcl::Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles)
+    triangles.emplace_back(static_cast<std::size_t>(a), static_cast<std::size_t>(b), static_cast<std::size_t>(c));
+  const bool built = model.beginModel() == fcl::BVH_OK && model.addSubModel(mesh.vertices, triangles) == fcl::BVH_OK &&
+                     model.endModel() == fcl::BVH_OK;
+  if (!built) throw Error(Status::bad_mesh, name + ": the collision tree could not be built");
+  model.computeLocalAABB();
+}
+
+// Moeller and Trumbore's test of the ray from `origin`.
+bool ray_crosses(const Vector3& origin, const Vector3& direction, const Vector3& a, const Vector3& b,
+                 const Vector3& c) {
+  const Vector3 u = b - a, v = c - a, across = direction.cross(v);
+  const double determinant = u.dot(across);
+  if (determinant == 0.0) return false;
+  const Vector3 from_corner = origin - a;
+  const double s = from_corner.dot(across) / determinant;
+  if (s < 0.0 || s > 1.0) return false;
+  const Vector3 along = from_corner.cross(u);
+  const double t = direction.dot(along) / determinant;
+  return t >= 0.0 && s + t <= 1.0 && v.dot(along) / determinant > 0.0;
+}
+
+}  // namespace
+
+Solid::Solid(const Mesh& mesh, const std::string& name) {
+  check_mesh(mesh, name);
+  const Mesh merged = geometry::merged_vertices(mesh);
+  if (merged.triangles.empty())
+    throw Error(Status::bad_mesh, name + ": found no triangle with an area, expected at least one");
+  auto tree = std::make_shared<Tree>();
+  build(tree->model, merged, name);
+  tree_ = std::move(tree);
+  for (Mesh& shell : geometry::shells(merged)) {
+    const bool closed = geometry::is_closed(shell);
+    const Box box = geometry::bounds(shell);
+    box_.add(box);
+    for (const Vector3& vertex : shell.vertices) reach_ = std::max(reach_, vertex.norm());
+    shells_.push_back({std::move(shell), box, closed});
+  }
+}
+
+bool Solid::holds(const Shell& shell, const Vector3& point) {
+  const Vector3 direction(0.5477225575051661, 0.3162277660168379,
+                          0.7745966692414834);  // along no edge that people draw
+  bool inside = false;
+  for (const auto& [a, b, c] : shell.mesh.triangles)
+    inside ^=
+        ray_crosses(point, direction, shell.mesh.vertices[static_cast<std::size_t>(a)],
+                    shell.mesh.vertices[static_cast<std::size_t>(b)], shell.mesh.vertices[static_cast<std::size_t>(c)]);
+  return inside;
+}
+
+// Only asked when no surfaces cross, so that one vertex speaks for its shell.
+bool Solid::holds_part_of(const Solid& other, const Pose& this_from_other) const {
+  for (const Shell& inner : other.shells_) {
+    const Vector3 point = this_from_other * inner.mesh.vertices.front();
+    const double extent = inner.box.size().maxCoeff();
+    for (const Shell& outer : shells_)
+      if (outer.closed && outer.box.contains(point) && extent <= outer.box.size().norm() && holds(outer, point))
+        return true;
+  }
+  return false;
+}
+
+bool touching(const Solid& a, const Pose& root_from_a, const Solid& b, const Pose& root_from_b) {
+  static const fcl::CollisionRequestd yes_or_no(1, false);
+  fcl::CollisionResultd result;
+  if (fcl::collide(&a.tree_->model, root_from_a, &b.tree_->model, root_from_b, yes_or_no, result) > 0) return true;
+  const Pose a_from_b = root_from_a.inverse() * root_from_b;
+  return a.holds_part_of(b, a_from_b) || b.holds_part_of(a, a_from_b.inverse());
+}
+
+Box moved_box(const Box& box, const Pose& pose) {
+  const Vector3 centre = pose * box.centre();
+  const Vector3 half = pose.linear().cwiseAbs() * (0.5 * box.size());
+  return {centre - half, centre + half};
+}
+
+}  // namespace tactus::contact

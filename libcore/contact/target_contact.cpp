@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/target_contact.hpp"
+
+#include <algorithm>
+
+namespace tactus::contact {
+namespace {
+
+constexpr double field_spacing = 0.001;
+constexpr double field_border = 0.03;
+constexpr std::size_t field_samples = 1'500'000;
+
+}  // namespace
+
+TargetContact::TargetContact(std::shared_ptr<const RobotBodies> bodies, const Mesh& target, double margin)
+    : bodies_(std::move(bodies)),
+      target_(target),
+      field_(target, field_spacing, field_border, field_samples),
+      margin_(margin) {
+  for (const Mesh& shell : geometry::shells(geometry::merged_vertices(target))) shell_points_.push_back(shell.vertices.front());
+}
+
+/// Where the look-up leaves a leaf undecided: its triangle against the target's, or for a negative threshold the depth of the leaf's centre.
+bool TargetContact::leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body, double threshold, double& gap) const {
+  if (threshold < 0.0) return field_.exact(target_from_body * leaf.centre) < threshold;
+  const Corners triangle = geometry::transformed(body.triangle(leaf.triangle), target_from_body);
+  const double bound = threshold + 2.0 * leaf.radius;
+  const double distance = field_.tree().distance(triangle, bound);
+  if (distance <= threshold || field_.tree().contains(target_from_body * leaf.centre)) return true;
+  gap = std::max(gap, distance);
+  return false;
+}
+
+/// Goes through the body's balls, deepest detail only where the target is near: a ball is passed over when it is at least half as far from the threshold as its centre.
+TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_from_body, double threshold) const {
+  const std::vector<SurfaceBall>& balls = body.balls();
+  double lowest = 1e300;
+  for (int i = 0; i < static_cast<int>(balls.size());) {
+    const SurfaceBall& ball = balls[i];
+    const geometry::DistanceBounds bounds = field_.bounds(target_from_body * ball.centre);
+    const double lower = bounds.lower - ball.radius;
+    if (lower > threshold && (lower >= lowest || ball.radius <= 0.5 * (bounds.lower - threshold))) {
+      lowest = std::min(lowest, lower);
+      i = ball.next;
+      continue;
+    }
+    if (ball.triangle >= 0) {
+      double gap = lower;
+      if (bounds.upper < threshold) return {true, 0.0};
+      if (lower <= threshold && leaf_hit(body, ball, target_from_body, threshold, gap)) return {true, 0.0};
+      lowest = std::min(lowest, gap);
+    }
+    ++i;
+  }
+  return {false, std::max(0.0, lowest - threshold)};
+}
+
+bool TargetContact::target_inside(const Body& body, const Pose& target_from_body) const {
+  const Pose body_from_target = target_from_body.inverse();
+  return std::any_of(shell_points_.begin(), shell_points_.end(),
+                     [&](const Vector3& p) { return body.tree().contains(body_from_target * p); });
+}
+
+std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, const Pose& base_from_target, double threshold,
+                                       std::size_t from, std::size_t to) const {
+  const Pose target_from_base = base_from_target.inverse();
+  for (std::size_t i = from; i < to;) {
+    const Pose target_from_body = target_from_base * path.base_from_body(i, body);
+    const Reach at = reach(bodies_->body(body), target_from_body, threshold);
+    if (at.hit || (threshold >= 0.0 && target_inside(bodies_->body(body), target_from_body))) return i;
+    const double free_until = path.travelled(i, body) + at.clearance;
+    for (++i; i < to && path.travelled(i, body) < free_until;) ++i;
+  }
+  return to;
+}
+
+std::optional<std::size_t> TargetContact::first_reach(const BodyPath& path, const Pose& base_from_target, double threshold,
+                                                      std::size_t from) const {
+  std::size_t first = path.size();
+  for (std::size_t body = 0; body < bodies_->size(); ++body)
+    first = std::min(first, first_reach(path, body, base_from_target, threshold, from, first));
+  return first == path.size() ? std::nullopt : std::optional(first);
+}
+
+std::optional<std::size_t> TargetContact::first_contact(const BodyPath& path, const Pose& base_from_target) const {
+  return first_reach(path, base_from_target, margin_, 1);
+}
+
+std::optional<std::size_t> TargetContact::first_within(const BodyPath& path, const Pose& base_from_target, double radius, std::size_t from) const {
+  return first_reach(path, base_from_target, radius, from);
+}
+
+bool TargetContact::touches(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const {
+  return within(path, waypoint, base_from_target, margin_);
+}
+
+bool TargetContact::within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target, double radius) const {
+  for (std::size_t body = 0; body < bodies_->size(); ++body)
+    if (first_reach(path, body, base_from_target, radius, waypoint, waypoint + 1) == waypoint) return true;
+  return false;
+}
+
+std::optional<std::size_t> TargetContact::first_certain_contact(const BodyPath& path, const Pose& base_from_target, double radius, std::size_t from) const {
+  return first_reach(path, base_from_target, -radius, from);
+}
+
+ContactInterval TargetContact::first_contact_interval(const BodyPath& path, const Pose& base_from_target, double radius) const {
+  return {first_reach(path, base_from_target, radius + margin_, 1).value_or(path.size()),
+          first_certain_contact(path, base_from_target, radius).value_or(path.size())};
+}
+
+}  // namespace tactus::contact

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "contact/body_path.hpp"
+
+namespace tactus::contact {
+
+/// The waypoints at which a pose somewhere in a cell may first be touched: no pose in it is touched before `earliest` nor stays free up to and including `latest`.
+struct ContactInterval {
+  std::size_t earliest = 0;  ///< the path's size: certainly never
+  std::size_t latest = 0;    ///< the path's size: perhaps never
+};
+
+/// Answers the one question of the planner: at which waypoint of a motion does the robot first touch the target, were the target at this pose?
+///
+/// Two solids are in contact when closer than the margin, or one inside the other; an open mesh is its surface. The first waypoint does not count. The answer is
+/// that of testing every triangle pair at every waypoint; waypoints are skipped only where a bound on the motion proves them free. Const, shared by any number of threads.
+class TargetContact {
+ public:
+  /// `target` in its own frame; `margin` in metres.
+  TargetContact(std::shared_ptr<const RobotBodies> bodies, const Mesh& target, double margin);
+
+  /// The first waypoint >= 1 in contact; none if the whole path is free.
+  std::optional<std::size_t> first_contact(const BodyPath& path, const Pose& base_from_target) const;
+
+  /// The first waypoint >= `from` at which the robot, inflated by `radius` (m, >= 0), touches the target; 0 asks for crossing or containment, without a margin.
+  std::optional<std::size_t> first_within(const BodyPath& path, const Pose& base_from_target, double radius, std::size_t from = 1) const;
+
+  /// Whether the robot touches the target at one waypoint.
+  bool touches(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const;
+
+  /// The interval for all poses at which no point of the target is farther than `radius` (m) from where it is at `base_from_target`.
+  /// Law: every such pose has its first contact in the interval.
+  ContactInterval first_contact_interval(const BodyPath& path, const Pose& base_from_target, double radius) const;
+
+  /// The first waypoint >= `from` whose robot, deflated by `radius` (m, > 0), certainly meets the target; none if no such waypoint is found.
+  std::optional<std::size_t> first_certain_contact(const BodyPath& path, const Pose& base_from_target, double radius, std::size_t from = 1) const;
+
+  /// Whether the robot comes within `radius` (m) of the target at a waypoint.
+  bool within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target, double radius) const;
+
+  const Mesh& target() const { return target_; }
+  const geometry::DistanceField& field() const { return field_; }
+  const RobotBodies& bodies() const { return *bodies_; }
+  double margin() const { return margin_; }
+
+ private:
+  struct Reach {
+    bool hit = false;
+    double clearance = 0.0;  ///< of what is not hit, above the threshold: the body may move this far without a hit
+  };
+  Reach reach(const Body& body, const Pose& target_from_body, double threshold) const;
+  bool leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body, double threshold, double& gap) const;
+  bool target_inside(const Body& body, const Pose& target_from_body) const;
+  std::size_t first_reach(const BodyPath& path, std::size_t body, const Pose& base_from_target, double threshold, std::size_t from, std::size_t to) const;
+  std::optional<std::size_t> first_reach(const BodyPath& path, const Pose& base_from_target, double threshold, std::size_t from) const;
+
+  std::shared_ptr<const RobotBodies> bodies_;
+  Mesh target_;
+  geometry::DistanceField field_;
+  double margin_;
+  std::vector<Vector3> shell_points_;  ///< one vertex of each shell of the target
+};
+
+}  // namespace tactus::contact

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/distance_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::geometry {
+namespace {
+
+constexpr double float_slack = 1e-7;  // of a distance below 1 m stored as a float
+
+}  // namespace
+
+DistanceField::DistanceField(const Mesh& mesh, double spacing, double border, std::size_t max_samples)
+    : tree_(mesh), spacing_(spacing) {
+  const Box box = tree_.box().inflated(border);
+  auto samples_at = [&](double h) {
+    return ((box.size() / h).array().ceil() + 1.0).prod();
+  };
+  while (samples_at(spacing_) > static_cast<double>(max_samples)) spacing_ *= 1.1;
+  origin_ = box.low;
+  for (int d = 0; d < 3; ++d) count_[d] = static_cast<int>(std::ceil(box.size()[d] / spacing_)) + 1;
+  samples_.resize(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2]);
+  fill();
+}
+
+void DistanceField::fill() {
+  std::size_t at = 0;
+  for (int z = 0; z < count_[2]; ++z)
+    for (int y = 0; y < count_[1]; ++y) {
+      double last = 0.0;  // no neighbour yet: its sign says nothing
+      for (int x = 0; x < count_[0]; ++x) {
+        const Vector3 p = origin_ + spacing_ * Vector3(x, y, z);
+        const double hint = x == 0 ? 1e300 : std::abs(last) + 1.0001 * spacing_;
+        const double distance = tree_.distance(p, hint);
+        const bool inside = std::abs(last) > 1.0001 * spacing_ ? last < 0.0 : tree_.contains(p);
+        last = inside ? -distance : distance;
+        samples_[at++] = static_cast<float>(last);
+      }
+    }
+}
+
+DistanceBounds DistanceField::bounds(const Vector3& p) const {
+  const Vector3 scaled = (p - origin_) / spacing_;
+  std::size_t index = 0, stride = 1;
+  Vector3 offset;
+  for (int d = 0; d < 3; ++d) {
+    const double nearest = std::clamp(std::floor(scaled[d] + 0.5), 0.0, static_cast<double>(count_[d] - 1));
+    offset[d] = scaled[d] - nearest;
+    index += static_cast<std::size_t>(nearest) * stride;
+    stride *= static_cast<std::size_t>(count_[d]);
+  }
+  const double error = offset.norm() * spacing_ + float_slack;
+  const double sample = static_cast<double>(samples_[index]);
+  if (offset.cwiseAbs().maxCoeff() <= 0.5001) return {sample - error, sample + error};
+  return {std::max(sample - error, tree_.box().distance(p)), sample + error};
+}
+
+double DistanceField::exact(const Vector3& p) const {
+  const double distance = tree_.distance(p);
+  return tree_.contains(p) ? -distance : distance;
+}
+
+}  // namespace tactus::geometry

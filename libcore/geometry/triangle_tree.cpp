@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/triangle_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::geometry {
+namespace {
+
+constexpr int leaf_size = 4;
+constexpr int stack_size = 128;
+
+double gap(const Box& a, const Box& b) { return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm(); }
+
+/// Whether the ray meets the box (slabs; a direction without zero components).
+bool meets(const Box& box, const Vector3& origin, const Vector3& inverse_direction) {
+  const Vector3 a = (box.low - origin).cwiseProduct(inverse_direction);
+  const Vector3 b = (box.high - origin).cwiseProduct(inverse_direction);
+  return std::max(0.0, a.cwiseMin(b).maxCoeff()) <= a.cwiseMax(b).minCoeff();
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const Mesh& mesh) : closed_(is_closed(mesh)) {
+  for (const Triangle& t : mesh.triangles) triangles_.push_back(corners(mesh, t));
+  nodes_.reserve(2 * triangles_.size());
+  nodes_.emplace_back();
+  build(0, 0, static_cast<int>(triangles_.size()));
+}
+
+void TriangleTree::build(int node, int begin, int end) {
+  Box box, centres;
+  for (int i = begin; i < end; ++i) {
+    box.add(bounds(triangles_[i]));
+    centres.add(bounds(triangles_[i]).centre());
+  }
+  nodes_[node].box = box;
+  if (end - begin <= leaf_size) {
+    nodes_[node].first = begin;
+    nodes_[node].count = end - begin;
+    return;
+  }
+  int axis = 0;
+  centres.size().maxCoeff(&axis);
+  const int middle = (begin + end) / 2;
+  std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle, triangles_.begin() + end,
+                   [axis](const Corners& a, const Corners& b) { return bounds(a).centre()[axis] < bounds(b).centre()[axis]; });
+  const int left = static_cast<int>(nodes_.size());
+  nodes_[node].first = left;
+  nodes_.emplace_back();
+  nodes_.emplace_back();
+  build(left, begin, middle);
+  build(left + 1, middle, end);
+}
+
+template <typename Query, typename Gap, typename Exact>
+double TriangleTree::nearest(const Query& query, double bound, Gap gap_to, Exact exact) const {
+  std::array<std::pair<double, int>, stack_size> stack;
+  int top = 0;
+  stack[top++] = {gap_to(nodes_[0].box, query), 0};
+  while (top > 0) {
+    const auto [lower, index] = stack[--top];
+    if (lower >= bound) continue;
+    const Node& node = nodes_[index];
+    if (node.count > 0) {
+      for (int i = node.first; i < node.first + node.count; ++i) bound = std::min(bound, exact(triangles_[i], query));
+      continue;
+    }
+    std::pair<double, int> near{gap_to(nodes_[node.first].box, query), node.first};
+    std::pair<double, int> far{gap_to(nodes_[node.first + 1].box, query), node.first + 1};
+    if (far.first < near.first) std::swap(near, far);
+    stack[top++] = far;
+    stack[top++] = near;
+  }
+  return bound;
+}
+
+double TriangleTree::distance(const Vector3& p, double bound) const {
+  return nearest(
+      p, bound, [](const Box& box, const Vector3& q) { return box.distance(q); },
+      [](const Corners& t, const Vector3& q) { return (closest_point(t, q) - q).norm(); });
+}
+
+double TriangleTree::distance(const Corners& triangle, double bound) const {
+  const Box box = bounds(triangle);
+  return nearest(
+      triangle, bound, [&box](const Box& other, const Corners&) { return gap(other, box); },
+      [](const Corners& t, const Corners& q) { return geometry::distance(t, q); });
+}
+
+int TriangleTree::winding(const Vector3& p, const Vector3& direction) const {
+  const Vector3 inverse = direction.cwiseInverse();
+  std::array<int, stack_size> stack;
+  int top = 0, sum = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Node& node = nodes_[stack[--top]];
+    if (!meets(node.box, p, inverse)) continue;
+    if (node.count == 0) {
+      stack[top++] = node.first;
+      stack[top++] = node.first + 1;
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i) sum += crossing(triangles_[i], p, direction);
+  }
+  return sum;
+}
+
+bool TriangleTree::contains(const Vector3& p) const {
+  if (!closed_ || !box().contains(p)) return false;
+  const int votes = (winding(p, {0.5773, 0.6241, 0.5265}) > 0) + (winding(p, {-0.7071, 0.3011, 0.6398}) > 0);
+  if (votes != 1) return votes == 2;
+  return winding(p, {0.2718, -0.8165, -0.5095}) > 0;
+}
+
+}  // namespace tactus::geometry

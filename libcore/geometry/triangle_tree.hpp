@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "geometry/triangle.hpp"
+
+namespace tactus::geometry {
+
+/// A tree of boxes over a mesh's triangles. Const after construction, shared by any number of threads.
+class TriangleTree {
+ public:
+  /// The mesh has at least one triangle; it is copied.
+  explicit TriangleTree(const Mesh& mesh);
+
+  /// The distance from `p` to the surface, if it is below `bound`; else `bound`.
+  double distance(const Vector3& p, double bound = 1e300) const;
+
+  /// The distance from a triangle to the surface, if it is below `bound`; else `bound`. 0 if they cross.
+  double distance(const Corners& triangle, double bound) const;
+
+  /// Whether `p` lies inside one of the closed shells (nested or overlapping ones are united). Open meshes contain nothing.
+  bool contains(const Vector3& p) const;
+
+  bool closed() const { return closed_; }
+  const Box& box() const { return nodes_.front().box; }
+
+ private:
+  struct Node {
+    Box box;
+    int first = 0;   ///< of its triangles if a leaf, else its left child
+    int count = 0;   ///< of its triangles; 0: an inner node whose children are `first` and `first + 1`
+  };
+
+  void build(int node, int begin, int end);
+  int winding(const Vector3& p, const Vector3& direction) const;
+  template <typename Point, typename Gap, typename Exact>
+  double nearest(const Point& query, double bound, Gap gap, Exact exact) const;
+
+  std::vector<Corners> triangles_;
+  std::vector<Node> nodes_;
+  bool closed_ = false;
+};
+
+}  // namespace tactus::geometry

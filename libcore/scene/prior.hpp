@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "geometry/pose.hpp"
+#include "support/rng.hpp"
+
+namespace tactus::scene {
+
+using geometry::Pose;
+using geometry::PoseVector;
+
+/// Where the target may be: a box over x, y, z (m), roll, pitch, yaw (rad) of its frame in the robot's base frame, uniformly. A width of 0 fixes a dimension.
+struct Prior {
+  PoseVector centre{};
+  PoseVector width{};  ///< full widths, >= 0, angles at most 2 pi
+
+  Pose central_pose() const { return geometry::pose_from(centre); }
+  Pose sample(support::Rng& rng) const;
+
+  /// Whether `pose` lies in the box, to `tolerance` (m and rad); angles modulo 2 pi.
+  bool contains(const PoseVector& pose, double tolerance = 1e-9) const;
+};
+
+/// `angle` moved by multiples of 2 pi to lie nearest to `to`.
+double nearest_angle(double angle, double to);
+
+/// How far a point at most `reach` metres from the frame's origin can move when each of the six numbers changes by up to `half` of it: half the diagonal of the
+/// translations plus the chords of the turns. The radius of a cell of poses.
+double cell_radius(const PoseVector& half, double reach);
+
+}  // namespace tactus::scene

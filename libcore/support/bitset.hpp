@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tactus::support {
+
+/// 128 bits that stand for a set: equal sets have equal hashes, whatever the order in which they were built.
+struct Hash128 {
+  std::uint64_t low = 0;
+  std::uint64_t high = 0;
+  bool operator==(const Hash128&) const = default;
+};
+
+/// A set of the integers 0 .. size-1, dense, 64 to the word.
+class Bitset {
+ public:
+  Bitset() = default;
+  explicit Bitset(std::size_t size, bool value = false);
+
+  std::size_t size() const { return size_; }
+  bool test(std::size_t i) const { return (words_[i >> 6] >> (i & 63)) & 1; }
+  void set(std::size_t i) { words_[i >> 6] |= std::uint64_t{1} << (i & 63); }
+  void reset(std::size_t i) { words_[i >> 6] &= ~(std::uint64_t{1} << (i & 63)); }
+  std::size_t count() const;
+  bool none() const;
+
+  Bitset& operator&=(const Bitset& other);
+  Bitset& and_not(const Bitset& other);
+  bool operator==(const Bitset&) const = default;
+
+  /// Zobrist hash of the members, salted.
+  Hash128 hash(std::uint64_t salt = 0) const;
+
+  /// Calls `visit(i)` for every member, ascending.
+  template <typename Visit>
+  void for_each(Visit&& visit) const {
+    for (std::size_t w = 0; w < words_.size(); ++w)
+      for (std::uint64_t rest = words_[w]; rest != 0; rest &= rest - 1)
+        visit(w * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
+  }
+
+  const std::vector<std::uint64_t>& words() const { return words_; }
+
+ private:
+  std::size_t size_ = 0;
+  std::vector<std::uint64_t> words_;
+};
+
+}  // namespace tactus::support

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/deadline.hpp"
+
+#include <algorithm>
+
+namespace tactus::support {
+
+Deadline::Deadline(double seconds, std::uint64_t expansions, const std::atomic<bool>* cancelled)
+    : seconds_(seconds), limit_(expansions), cancelled_(cancelled) {}
+
+bool Deadline::cancelled() const { return cancelled_ != nullptr && cancelled_->load(std::memory_order_relaxed); }
+
+bool Deadline::spent() const { return cancelled() || used_ >= limit_ || elapsed_seconds() >= seconds_; }
+
+double Deadline::used_fraction() const {
+  const double of_time = elapsed_seconds() / seconds_;
+  const double of_count = limit_ == UINT64_MAX ? 0.0 : static_cast<double>(used_) / static_cast<double>(limit_);
+  return std::min(1.0, std::max(of_time, of_count));
+}
+
+double Deadline::elapsed_seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+}  // namespace tactus::support

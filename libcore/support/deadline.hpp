@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+
+namespace tactus::support {
+
+/// How long a computation may go on: wall-clock seconds, counted expansions, or until somebody cancels. Any of them may be
+/// without limit. A budget in expansions gives the same result on every machine; one in seconds can't.
+class Deadline {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `cancelled` (may be null) is read only, and must outlive the deadline.
+  Deadline(double seconds, std::uint64_t expansions, const std::atomic<bool>* cancelled = nullptr);
+  static Deadline unlimited() { return {std::numeric_limits<double>::infinity(), UINT64_MAX}; }
+
+  void count_expansion() { ++used_; }
+  bool cancelled() const;
+  bool spent() const;               ///< out of time, out of expansions, or cancelled
+  double used_fraction() const;     ///< of the tighter budget, in [0, 1]; 0 without one
+  double elapsed_seconds() const;
+  std::uint64_t expansions() const { return used_; }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+  double seconds_;
+  std::uint64_t limit_;
+  std::uint64_t used_ = 0;
+  const std::atomic<bool>* cancelled_;
+};
+
+}  // namespace tactus::support
