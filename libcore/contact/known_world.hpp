@@ -14,17 +14,20 @@ using geometry::Mesh;
 using geometry::Pose;
 using robot::JointVector;
 
-/// What is known before the search: the robot (with its tool among the shapes of its tool link) and the static world. Answers whether a configuration is
-/// free of collisions with itself and with the world. Const and shareable between threads.
+/// What is known before the search: the robot (with its tool among the shapes of its tool link) and the static world.
+/// Answers whether a configuration is free of collisions with itself and with the world. Const and shareable between
+/// threads.
 ///
-/// All pairs of links are checked but: rigidly connected ones, adjacent ones (one moving joint between them, looking through links without shapes), those
-/// the SRDF disables, and those that collide at every one of 200 random configurations. Links that no joint moves are not checked against the world.
-/// A shell wholly inside another, closed one counts as a collision. [FCL]
+/// All pairs of links are checked but: rigidly connected ones, adjacent ones (one moving joint between them, looking
+/// through links without shapes), those the SRDF disables, and those that collide at every one of 200 random
+/// configurations. Links that no joint moves are not checked against the world. A shell wholly inside another, closed
+/// one counts as a collision. [FCL]
 class KnownWorld {
  public:
-  /// `world_from_base` is folded in by the caller: `static_world` stands in the robot's base frame, closed meshes solid. One name a mesh. Throws `bad_mesh`,
-  /// or `invalid_argument` if the names don't match.
-  KnownWorld(std::shared_ptr<const robot::RobotModel> model, std::vector<Mesh> static_world, std::vector<std::string> static_names);
+  /// `world_from_base` is folded in by the caller: `static_world` stands in the robot's base frame, closed meshes
+  /// solid. One name a mesh. Throws `bad_mesh`, or `invalid_argument` if the names don't match.
+  KnownWorld(std::shared_ptr<const robot::RobotModel> model, std::vector<Mesh> static_world,
+             std::vector<std::string> static_names);
   ~KnownWorld();
   KnownWorld(const KnownWorld&) = delete;
   KnownWorld& operator=(const KnownWorld&) = delete;
@@ -32,7 +35,8 @@ class KnownWorld {
   /// Inside the joint limits, and free of collisions. A NaN is never free.
   bool is_free(const JointVector& q) const;
 
-  /// What collides, for an error message ("forearm_link with shelf"); empty if free. Also names a joint outside its limits.
+  /// What collides, for an error message ("forearm_link with shelf"); empty if free. Also names a joint outside its
+  /// limits.
   std::string describe_collision(const JointVector& q) const;
 
   const robot::RobotModel& model() const;

@@ -7,7 +7,7 @@
 namespace tactus::geometry {
 namespace {
 
-constexpr double float_slack = 1e-7;  // of a distance below 1 m stored as a float
+constexpr double float_slack = 1e-7;  // of a distance stored as a float, relative above 1 m
 
 }  // namespace
 
@@ -50,8 +50,8 @@ DistanceBounds DistanceField::bounds(const Vector3& p) const {
     index += static_cast<std::size_t>(nearest) * stride;
     stride *= static_cast<std::size_t>(count_[d]);
   }
-  const double error = offset.norm() * spacing_ + float_slack;
   const double sample = static_cast<double>(samples_[index]);
+  const double error = offset.norm() * spacing_ + float_slack * std::max(1.0, std::abs(sample));
   if (offset.cwiseAbs().maxCoeff() <= 0.5001) return {sample - error, sample + error};
   return {std::max(sample - error, tree_.box().distance(p)), sample + error};
 }

@@ -21,18 +21,23 @@ bool meets(const Box& box, const Vector3& origin, const Vector3& inverse_directi
 
 }  // namespace
 
-TriangleTree::TriangleTree(const Mesh& mesh) : closed_(is_closed(mesh)) {
-  for (const Triangle& t : mesh.triangles) triangles_.push_back(corners(mesh, t));
-  nodes_.reserve(2 * triangles_.size());
+TriangleTree::TriangleTree(const Mesh& mesh) {
+  for (const Mesh& shell : shells(merged_vertices(mesh))) {
+    const bool solid = is_closed(shell);
+    solid_ = solid_ || solid;
+    for (const Triangle& t : shell.triangles) faces_.push_back({corners(shell, t), solid});
+  }
+  nodes_.reserve(2 * faces_.size());
   nodes_.emplace_back();
-  build(0, 0, static_cast<int>(triangles_.size()));
+  build(0, 0, static_cast<int>(faces_.size()));
 }
 
 void TriangleTree::build(int node, int begin, int end) {
   Box box, centres;
   for (int i = begin; i < end; ++i) {
-    box.add(bounds(triangles_[i]));
-    centres.add(bounds(triangles_[i]).centre());
+    const Box of_face = bounds(faces_[i].corners);
+    box.add(of_face);
+    centres.add(of_face.centre());
   }
   nodes_[node].box = box;
   if (end - begin <= leaf_size) {
@@ -43,8 +48,10 @@ void TriangleTree::build(int node, int begin, int end) {
   int axis = 0;
   centres.size().maxCoeff(&axis);
   const int middle = (begin + end) / 2;
-  std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle, triangles_.begin() + end,
-                   [axis](const Corners& a, const Corners& b) { return bounds(a).centre()[axis] < bounds(b).centre()[axis]; });
+  std::nth_element(faces_.begin() + begin, faces_.begin() + middle, faces_.begin() + end,
+                   [axis](const Face& a, const Face& b) {
+                     return bounds(a.corners).centre()[axis] < bounds(b.corners).centre()[axis];
+                   });
   const int left = static_cast<int>(nodes_.size());
   nodes_[node].first = left;
   nodes_.emplace_back();
@@ -63,7 +70,7 @@ double TriangleTree::nearest(const Query& query, double bound, Gap gap_to, Exact
     if (lower >= bound) continue;
     const Node& node = nodes_[index];
     if (node.count > 0) {
-      for (int i = node.first; i < node.first + node.count; ++i) bound = std::min(bound, exact(triangles_[i], query));
+      for (int i = node.first; i < node.first + node.count; ++i) bound = std::min(bound, exact(faces_[i].corners, query));
       continue;
     }
     std::pair<double, int> near{gap_to(nodes_[node.first].box, query), node.first};
@@ -101,13 +108,14 @@ int TriangleTree::winding(const Vector3& p, const Vector3& direction) const {
       stack[top++] = node.first + 1;
       continue;
     }
-    for (int i = node.first; i < node.first + node.count; ++i) sum += crossing(triangles_[i], p, direction);
+    for (int i = node.first; i < node.first + node.count; ++i)
+      if (faces_[i].solid) sum += crossing(faces_[i].corners, p, direction);
   }
   return sum;
 }
 
 bool TriangleTree::contains(const Vector3& p) const {
-  if (!closed_ || !box().contains(p)) return false;
+  if (!solid_ || !box().contains(p)) return false;
   const int votes = (winding(p, {0.5773, 0.6241, 0.5265}) > 0) + (winding(p, {-0.7071, 0.3011, 0.6398}) > 0);
   if (votes != 1) return votes == 2;
   return winding(p, {0.2718, -0.8165, -0.5095}) > 0;

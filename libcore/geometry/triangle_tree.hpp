@@ -10,7 +10,7 @@ namespace tactus::geometry {
 /// A tree of boxes over a mesh's triangles. Const after construction, shared by any number of threads.
 class TriangleTree {
  public:
-  /// The mesh has at least one triangle; it is copied.
+  /// The mesh has at least one triangle with an area; it is copied, without those that have none.
   explicit TriangleTree(const Mesh& mesh);
 
   /// The distance from `p` to the surface, if it is below `bound`; else `bound`.
@@ -19,13 +19,16 @@ class TriangleTree {
   /// The distance from a triangle to the surface, if it is below `bound`; else `bound`. 0 if they cross.
   double distance(const Corners& triangle, double bound) const;
 
-  /// Whether `p` lies inside one of the closed shells (nested or overlapping ones are united). Open meshes contain nothing.
+  /// Whether `p` lies inside one of the closed shells (nested or overlapping ones are united). Open shells contain nothing.
   bool contains(const Vector3& p) const;
 
-  bool closed() const { return closed_; }
   const Box& box() const { return nodes_.front().box; }
 
  private:
+  struct Face {
+    Corners corners;
+    bool solid = false;  ///< of a closed shell
+  };
   struct Node {
     Box box;
     int first = 0;   ///< of its triangles if a leaf, else its left child
@@ -37,9 +40,9 @@ class TriangleTree {
   template <typename Point, typename Gap, typename Exact>
   double nearest(const Point& query, double bound, Gap gap, Exact exact) const;
 
-  std::vector<Corners> triangles_;
+  std::vector<Face> faces_;
   std::vector<Node> nodes_;
-  bool closed_ = false;
+  bool solid_ = false;  ///< a shell is closed
 };
 
 }  // namespace tactus::geometry

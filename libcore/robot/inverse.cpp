@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "robot/chain.hpp"
@@ -27,24 +28,66 @@ Twist difference(const Pose& pose, const Pose& target) {
   return twist;
 }
 
+/// The limits of a chain's joints.
+struct Limits {
+  Values lower, upper;
+  Values clamped(const Values& values) const { return values.cwiseMax(lower).cwiseMin(upper); }
+};
+
+Limits limits_of(const RobotModel& model, const Chain& chain) {
+  Limits limits{Values(chain.columns()), Values(chain.columns())};
+  for (int c = 0; c < chain.columns(); ++c) {
+    limits.lower[c] = model.joints[static_cast<std::size_t>(chain.joint(c))].lower;
+    limits.upper[c] = model.joints[static_cast<std::size_t>(chain.joint(c))].upper;
+  }
+  return limits;
+}
+
+/// The same without the limits of joints that have a whole turn: these would only be in the way of a descent.
+Limits without_full_circles(const Chain& chain, Limits limits) {
+  for (int c = 0; c < chain.columns(); ++c) {
+    if (!chain.turns_freely(c) || limits.upper[c] - limits.lower[c] < whole_turn) continue;
+    limits.lower[c] = -std::numeric_limits<double>::infinity();
+    limits.upper[c] = std::numeric_limits<double>::infinity();
+  }
+  return limits;
+}
+
+/// Turns joints by whole turns into their limits, and there as near to `goal` as may be.
+Values wound_towards(const Chain& chain, const Limits& limits, Values values, const Values& goal) {
+  for (int c = 0; c < values.size(); ++c) {
+    if (!chain.turns_freely(c)) continue;
+    const double fewest = std::ceil((limits.lower[c] - values[c]) / whole_turn);
+    const double most = std::floor((limits.upper[c] - values[c]) / whole_turn);
+    values[c] += whole_turn * std::max(fewest, std::min(most, std::round((goal[c] - values[c]) / whole_turn)));
+  }
+  return limits.clamped(values);
+}
+
+/// Random values for the joints, not further than half a turn from `near` where the limits allow.
+Values draw(const Chain& chain, const Limits& limits, const Values& near, support::Rng& rng) {
+  Values values(near.size());
+  for (int c = 0; c < values.size(); ++c) {
+    double low = limits.lower[c], high = limits.upper[c];
+    if (chain.turns_freely(c) && high - low > whole_turn) {
+      low = std::clamp(near[c] - 0.5 * whole_turn, low, high - whole_turn);
+      high = low + whole_turn;
+    }
+    const bool bounded = std::isfinite(low) && std::isfinite(high);
+    values[c] = bounded ? rng.uniform(low, high) : near[c] + rng.uniform(-0.5, 0.5) * whole_turn;
+  }
+  return values;
+}
+
 /// Levenberg-Marquardt in a box, after Sugihara (2011): damped by the error itself, so that it slows down near
 /// singularities and where the target is out of reach, and is Gauss-Newton near a solution.
 class Descent {
  public:
-  Descent(const RobotModel& model, const Chain& chain, const Pose& target) : chain_(chain), target_(target) {
-    lower_.resize(chain.columns());
-    upper_.resize(chain.columns());
-    for (int c = 0; c < chain.columns(); ++c) {
-      lower_[c] = model.joints[static_cast<std::size_t>(chain.joint(c))].lower;
-      upper_[c] = model.joints[static_cast<std::size_t>(chain.joint(c))].upper;
-    }
-  }
-
-  Values clamped(const Values& values) const { return values.cwiseMax(lower_).cwiseMin(upper_); }
+  Descent(const Chain& chain, const Pose& target, const Limits& box) : chain_(chain), target_(target), box_(box) {}
 
   /// True if `values` arrive at the target.
   bool run(Values& values, const InverseOptions& options) {
-    values = clamped(values);
+    values = box_.clamped(values);
     Chain::Jacobian jacobian;
     Twist error = difference(chain_.forward(values, jacobian), target_);
     double damping = 1.0, mark = error.squaredNorm();
@@ -54,7 +97,7 @@ class Descent {
         if (error.squaredNorm() > (1.0 - least_progress) * mark) return false;
         mark = error.squaredNorm();
       }
-      const Values candidate = clamped(values + step(values, jacobian, error, damping * error.squaredNorm()));
+      const Values candidate = box_.clamped(values + step(values, jacobian, error, damping * error.squaredNorm()));
       const Twist left = difference(chain_.forward(candidate), target_);
       if (left.squaredNorm() < error.squaredNorm()) {
         values = candidate;
@@ -65,19 +108,6 @@ class Descent {
       }
     }
     return true;
-  }
-
-  bool fits(int column, double value) const { return value >= lower_[column] && value <= upper_[column]; }
-
-  /// A random value for a joint, not further than half a turn from `near` where the limits allow.
-  double draw(int column, double near, support::Rng& rng) const {
-    double low = lower_[column], high = upper_[column];
-    if (chain_.turns_freely(column) && high - low > whole_turn) {
-      low = std::clamp(near - 0.5 * whole_turn, low, high - whole_turn);
-      high = low + whole_turn;
-    }
-    return std::isfinite(low) && std::isfinite(high) ? rng.uniform(low, high)
-                                                     : near + rng.uniform(-1.0, 1.0) * whole_turn;
   }
 
  private:
@@ -91,7 +121,7 @@ class Descent {
     Normal normal = jacobian.transpose() * jacobian;
     normal.diagonal().array() += damping + 1e-12;
     for (int c = 0; c < pull.size(); ++c) {
-      if (!((values[c] <= lower_[c] && pull[c] < 0.0) || (values[c] >= upper_[c] && pull[c] > 0.0))) continue;
+      if (!((values[c] <= box_.lower[c] && pull[c] < 0.0) || (values[c] >= box_.upper[c] && pull[c] > 0.0))) continue;
       pull[c] = 0.0;
       normal.row(c).setZero();
       normal.col(c).setZero();
@@ -102,7 +132,7 @@ class Descent {
 
   const Chain& chain_;
   const Pose& target_;
-  Values lower_, upper_;
+  const Limits box_;
 };
 
 Values values_of(const Chain& chain, const JointVector& q) {
@@ -115,17 +145,6 @@ JointVector with_values(const Chain& chain, const JointVector& q, const Values& 
   JointVector changed = q;
   for (int c = 0; c < chain.columns(); ++c) changed[chain.joint(c)] = values[c];
   return changed;
-}
-
-/// Turns joints by whole turns towards `seed`, as far as the limits allow.
-Values unwound(const Chain& chain, const Descent& descent, Values values, const Values& seed) {
-  for (int c = 0; c < values.size(); ++c) {
-    if (!chain.turns_freely(c)) continue;
-    double turns = std::round((seed[c] - values[c]) / whole_turn);
-    while (turns != 0.0 && !descent.fits(c, values[c] + turns * whole_turn)) turns -= std::copysign(1.0, turns);
-    values[c] += turns * whole_turn;
-  }
-  return values;
 }
 
 JointVector checked_seed(const RobotModel& model, const Pose& target, const JointVector& seed) {
@@ -152,11 +171,12 @@ std::optional<JointVector> inverse(const RobotModel& model, int link, const Pose
                                    const JointVector& seed, const InverseOptions& options) {
   const Chain chain(model, link);
   const JointVector start = checked_seed(model, root_from_link, seed);
-  Descent descent(model, chain, root_from_link);
+  const Limits limits = limits_of(model, chain);
+  Descent descent(chain, root_from_link, without_full_circles(chain, limits));
   const Values near = values_of(chain, start);
   Values values = near;
   if (!descent.run(values, options)) return std::nullopt;
-  return with_values(chain, start, unwound(chain, descent, values, near));
+  return with_values(chain, start, wound_towards(chain, limits, values, near));
 }
 
 std::vector<JointVector> inverse_all(const RobotModel& model, int link, const Pose& root_from_link,
@@ -164,16 +184,15 @@ std::vector<JointVector> inverse_all(const RobotModel& model, int link, const Po
                                      const InverseOptions& options) {
   const Chain chain(model, link);
   const JointVector start = checked_seed(model, root_from_link, seed);
-  Descent descent(model, chain, root_from_link);
+  const Limits limits = limits_of(model, chain);
+  Descent descent(chain, root_from_link, without_full_circles(chain, limits));
   const Values near = values_of(chain, start);
   std::vector<Values> solutions;
   for (int attempt = 0; attempt <= restarts; ++attempt) {
-    Values values = near;
-    if (attempt > 0)
-      for (int c = 0; c < values.size(); ++c) values[c] = descent.draw(c, near[c], rng);
+    Values values = attempt == 0 ? near : draw(chain, limits, near, rng);
     if (!descent.run(values, options)) continue;
-    add_if_new(solutions, unwound(chain, descent, values, near));
-    add_if_new(solutions, values);
+    add_if_new(solutions, wound_towards(chain, limits, values, near));
+    add_if_new(solutions, wound_towards(chain, limits, values, values));
   }
   const auto nearer = [&](const Values& a, const Values& b) {
     return (a - near).squaredNorm() < (b - near).squaredNorm();

@@ -43,9 +43,11 @@ struct InverseOptions {
 };
 
 /// A configuration inside the limits near `seed` whose `link` stands at `root_from_link`, to the tolerances; none if
-/// the descent from `seed` does not get there. Damped least squares with the limits as a box; deterministic. Joints
-/// that do not move `link` keep the seed's value (brought inside its limits). Throws `invalid_argument` for numbers
-/// that are not finite or if more than 16 joints move the link.
+/// the descent from `seed` does not get there. Damped least squares with the limits as a box; deterministic. A joint
+/// whose limits leave room for a whole turn goes where it has to and is then wound back, to the value inside its limits
+/// nearest to `seed`: at the end of its range that is almost a turn away, so who follows a path looks at the step.
+/// Joints that do not move `link` keep the seed's value (brought inside its limits). Throws `invalid_argument` for
+/// numbers that are not finite or if more than 16 joints move the link.
 std::optional<JointVector> inverse(const RobotModel& model, int link, const Pose& root_from_link,
                                    const JointVector& seed, const InverseOptions& options = {});
 

@@ -91,8 +91,9 @@ class TreeBuilder {
     if (joint.limits == nullptr) return;
     if (link.multiplier != 0.0)
       leader->velocity = std::min(leader->velocity, joint.limits->velocity / std::abs(link.multiplier));
-    const auto [low, high] =
-        std::minmax(link.multiplier * leader->lower + link.offset, link.multiplier * leader->upper + link.offset);
+    const double at_lower = link.multiplier * leader->lower + link.offset;
+    const double at_upper = link.multiplier * leader->upper + link.offset;
+    const auto [low, high] = std::minmax(at_lower, at_upper);
     if (link.joint_kind != JointKind::continuous &&
         (low < joint.limits->lower - 1e-6 || high > joint.limits->upper + 1e-6))
       warn("joint " + joint.name + " leaves its own limits when it follows " + leader->name + "; those of " +

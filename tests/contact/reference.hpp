@@ -19,14 +19,19 @@ using geometry::Pose;
 using geometry::Vector3;
 using test::segment_meets;
 
-/// Shells are solid, and united where they overlap, or all of them are mere surfaces.
 struct Shape {
-  std::vector<Mesh> shells;
-  bool solid = true;
+  std::vector<Mesh> solids;  ///< closed, united where they overlap
+  std::vector<Mesh> sheets;  ///< mere surfaces
+
+  std::vector<Mesh> pieces() const {
+    std::vector<Mesh> all = solids;
+    all.insert(all.end(), sheets.begin(), sheets.end());
+    return all;
+  }
 
   Mesh mesh() const {
     Mesh all;
-    for (const Mesh& shell : shells) geometry::append(all, shell);
+    for (const Mesh& piece : pieces()) geometry::append(all, piece);
     return all;
   }
 };
@@ -93,16 +98,15 @@ inline bool touch(const Corners& s, const Corners& t, double margin) {
   return !beside(s, t, margin) && !beside(t, s, margin) && triangle_from_triangle(s, t) <= margin;
 }
 
-/// Whether a ray from the point leaves one of the shells an odd number of times.
+/// Whether a ray from the point leaves one of the solids an odd number of times.
 inline bool holds(const Shape& shape, const Vector3& p) {
   const Vector3 far = p + Vector3(7.1, 3.7, 11.3);
-  return shape.solid && std::any_of(shape.shells.begin(), shape.shells.end(), [&](const Mesh& shell) {
-           bool odd = false;
-           for (const auto& t : shell.triangles)
-             odd ^=
-                 segment_meets(p, far, test::corner(shell, t, 0), test::corner(shell, t, 1), test::corner(shell, t, 2));
-           return odd;
-         });
+  return std::any_of(shape.solids.begin(), shape.solids.end(), [&](const Mesh& solid) {
+    bool odd = false;
+    for (const auto& t : solid.triangles)
+      odd ^= segment_meets(p, far, test::corner(solid, t, 0), test::corner(solid, t, 1), test::corner(solid, t, 2));
+    return odd;
+  });
 }
 
 // --- shapes in their places
@@ -126,6 +130,7 @@ struct Placed {
   Placed(const Shape& its_shape, const Pose& its_pose) : shape(&its_shape), pose(its_pose) {
     const Mesh mesh = geometry::transformed(shape->mesh(), pose);
     ball = ball_around(mesh.vertices);
+    for (const Mesh& piece : shape->pieces()) starts.push_back(pose * piece.vertices.front());
     for (const auto& t : mesh.triangles) {
       triangles.push_back({test::corner(mesh, t, 0), test::corner(mesh, t, 1), test::corner(mesh, t, 2)});
       balls.push_back(ball_around(triangles.back()));
@@ -137,13 +142,14 @@ struct Placed {
   Ball ball;
   std::vector<Corners> triangles;
   std::vector<Ball> balls;
+  std::vector<Vector3> starts;  ///< a vertex of each piece
 };
 
-/// Whether a shell of `inner` begins inside `outer`.
+/// Whether a piece of `inner` begins inside `outer`.
 inline bool holds_part(const Placed& outer, const Placed& inner) {
-  const Pose outer_from_inner = outer.pose.inverse() * inner.pose;
-  return std::any_of(inner.shape->shells.begin(), inner.shape->shells.end(),
-                     [&](const Mesh& shell) { return holds(*outer.shape, outer_from_inner * shell.vertices.front()); });
+  const Pose outer_from_base = outer.pose.inverse();
+  return std::any_of(inner.starts.begin(), inner.starts.end(),
+                     [&](const Vector3& p) { return holds(*outer.shape, outer_from_base * p); });
 }
 
 inline bool touch(const Placed& a, const Placed& b, double margin) {

@@ -56,6 +56,16 @@ TEST(Model, AMimicJointsVelocityLimitHoldsForWhatItFollows) {
   EXPECT_DOUBLE_EQ(load_text(urdf).joints[0].velocity, 0.2);
 }
 
+TEST(Model, AMimicJointThatLeavesItsOwnLimitsIsLogged) {
+  const CaptureLog log;
+  load_text(testing::tree_urdf);
+  EXPECT_EQ(log.text(), "");
+  std::string urdf = testing::tree_urdf;
+  urdf.replace(urdf.find(R"(lower="-9" upper="9")"), 20, R"(lower="-9" upper="1")");
+  load_text(urdf);
+  EXPECT_NE(log.text().find("joint echo leaves its own limits"), std::string::npos) << log.text();
+}
+
 TEST(Model, AxesAreUnitVectors) {
   const RobotModel model = load_text(testing::tree_urdf);
   EXPECT_TRUE(link_of(model, "upper").axis.isApprox(geometry::Vector3(0.0, 0.6, 0.8)));

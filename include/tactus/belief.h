@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef TACTUS_BELIEF_H
+#define TACTUS_BELIEF_H
+
+/**
+ * A belief: the robot's configuration, and what is known of the target's pose. One thread at a time (TACTUS_BUSY, from
+ * every function here that takes a belief).
+ */
+
+#include "tactus/action.h"
+#include "tactus/scenario.h"
+#include "tactus/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct tactus_belief tactus_belief;
+
+typedef int32_t tactus_belief_kind;
+
+enum {
+  TACTUS_BELIEF_HIERARCHICAL = 1, /**< voxels that the target may occupy; cells of poses once there are few */
+  TACTUS_BELIEF_PARTICLES = 2     /**< cells of poses from the start */
+};
+
+typedef struct tactus_belief_options {
+  uint32_t struct_size;
+  tactus_belief_kind kind;
+} tactus_belief_options;
+
+/** Sets `struct_size` to `size`, which is `sizeof *options`, and the rest to the library's defaults: hierarchical. */
+TACTUS_API tactus_status tactus_belief_options_init(tactus_belief_options* options, size_t size) TACTUS_NOEXCEPT;
+
+/** The scenario's own options. TACTUS_STRUCT_SIZE. */
+TACTUS_API tactus_status tactus_scenario_belief_options(const tactus_scenario* scenario,
+                                                        tactus_belief_options* options) TACTUS_NOEXCEPT;
+
+/**
+ * The belief before anything is touched: the target is anywhere in the prior, the robot at `q`, double (dof).
+ * `options`: NULL for the scenario's.
+ *
+ * TACTUS_INVALID_ARGUMENT (a NaN, an unknown kind), TACTUS_START_IN_COLLISION, TACTUS_STRUCT_SIZE.
+ */
+TACTUS_API tactus_status tactus_belief_create(const tactus_scenario* scenario, const tactus_belief_options* options,
+                                              const double* q, tactus_belief** belief) TACTUS_NOEXCEPT;
+
+/** An independent copy. */
+TACTUS_API tactus_status tactus_belief_clone(const tactus_belief* belief, tactus_belief** clone) TACTUS_NOEXCEPT;
+
+/** NULL is legal. */
+TACTUS_API void tactus_belief_destroy(tactus_belief* belief) TACTUS_NOEXCEPT;
+
+/* --- what happens to it */
+
+/**
+ * Takes in what the robot reported after it executed `action`. The belief's configuration becomes the last free
+ * waypoint after a contact (see `tactus_action_retreat`), and where the robot stopped without one. A stop without
+ * contact midway is legal: what was travelled is free. An observation that contradicts all that is known does not empty
+ * the belief: it is left out, and the belief's health says so.
+ *
+ * TACTUS_STOP_OFF_PATH, TACTUS_INVALID_ARGUMENT (a NaN, a wrong number of joints), TACTUS_WRONG_SCENARIO,
+ * TACTUS_STRUCT_SIZE.
+ */
+TACTUS_API tactus_status tactus_belief_step(tactus_belief* belief, const tactus_action* action,
+                                            const tactus_observation* observation) TACTUS_NOEXCEPT;
+
+/**
+ * The robot was moved to `q`, double (dof), by somebody else, a jog for instance. Nothing is learned from it.
+ *
+ * TACTUS_INVALID_ARGUMENT (a NaN), TACTUS_START_IN_COLLISION.
+ */
+TACTUS_API tactus_status tactus_belief_set_configuration(tactus_belief* belief, const double* q) TACTUS_NOEXCEPT;
+
+/* --- what it says */
+
+/** The robot's configuration. `q`: double (dof). */
+TACTUS_API tactus_status tactus_belief_configuration(const tactus_belief* belief, double* q, size_t capacity,
+                                                     size_t* count) TACTUS_NOEXCEPT;
+
+enum {
+  TACTUS_PHASE_VOXELS = 1, /**< known are voxels that the target may occupy */
+  TACTUS_PHASE_POSES = 2   /**< known are cells of poses that the target may have */
+};
+
+enum {
+  TACTUS_HEALTH_GOOD = 0,
+  TACTUS_HEALTH_CONTRADICTED = 1 /**< an observation was impossible by all that was known, and was left out */
+};
+
+/** A belief in numbers. Six numbers of a pose are x y z (m) and roll pitch yaw (rad, as in `tactus_pose_from_rpy`). */
+typedef struct tactus_summary {
+  uint32_t struct_size;
+  int32_t phase;              /**< TACTUS_PHASE_VOXELS or TACTUS_PHASE_POSES */
+  int32_t health;             /**< TACTUS_HEALTH_GOOD or TACTUS_HEALTH_CONTRADICTED */
+  uint32_t reserved;          /**< 0 */
+  uint64_t observations;      /**< taken in */
+  uint64_t contacts;          /**< of them with contact */
+  uint64_t possibly_occupied; /**< voxels; 0 in the pose phase */
+  double volume;              /**< of these voxels, m^3; 0 in the pose phase */
+  uint64_t cells;             /**< of poses; 0 in the voxel phase */
+  double bits;                /**< log2 of how many task tolerances the belief spans */
+  double mean[6];             /**< of the target's pose; angles: circular mean */
+  double extent[6];           /**< full widths */
+  double covariance[36];      /**< 6 x 6, row by row */
+} tactus_summary;
+
+/** Sets `struct_size` to `size`, which is `sizeof *summary`, and everything else to 0. */
+TACTUS_API tactus_status tactus_summary_init(tactus_summary* summary, size_t size) TACTUS_NOEXCEPT;
+
+/** TACTUS_STRUCT_SIZE. */
+TACTUS_API tactus_status tactus_belief_summary(const tactus_belief* belief, tactus_summary* summary) TACTUS_NOEXCEPT;
+
+/** The centres of the voxels that the target may occupy, base frame, m; none in the pose phase. `centres`: double
+ * (count x 3). */
+TACTUS_API tactus_status tactus_belief_voxels(const tactus_belief* belief, double* centres, size_t capacity,
+                                              size_t* count) TACTUS_NOEXCEPT;
+
+/** The centres of the cells of poses that the target may have; none in the voxel phase. `poses`: double (count x 7). */
+TACTUS_API tactus_status tactus_belief_poses(const tactus_belief* belief, double* poses, size_t capacity,
+                                             size_t* count) TACTUS_NOEXCEPT;
+
+/** `*goal` is 1 if at the present configuration the tool is seated for every pose that the target may still have, else
+ * 0. */
+TACTUS_API tactus_status tactus_belief_is_goal(const tactus_belief* belief, int32_t* goal) TACTUS_NOEXCEPT;
+
+/** `*contained` is 1 if the target may have this pose, double (7), as far as is known, else 0. TACTUS_INVALID_ARGUMENT.
+ */
+TACTUS_API tactus_status tactus_belief_contains(const tactus_belief* belief, const double pose[7],
+                                                int32_t* contained) TACTUS_NOEXCEPT;
+
+/* --- keeping it */
+
+/** The whole belief as bytes, with a version and a checksum. `bytes`: uint8_t (count). */
+TACTUS_API tactus_status tactus_belief_save(const tactus_belief* belief, uint8_t* bytes, size_t capacity,
+                                            size_t* count) TACTUS_NOEXCEPT;
+
+/**
+ * The belief that was saved as these `size` bytes, in the same scenario. It acts as the saved one would have.
+ *
+ * TACTUS_BAD_SAVED_STATE, TACTUS_WRONG_SCENARIO.
+ */
+TACTUS_API tactus_status tactus_belief_restore(const tactus_scenario* scenario, const uint8_t* bytes, size_t size,
+                                               tactus_belief** belief) TACTUS_NOEXCEPT;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/planner.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "solver/greedy.hpp"
+#include "solver/pose_problem.hpp"
+#include "solver/voxel_problem.hpp"
+#include "support/error.hpp"
+
+namespace tactus::solver {
+namespace {
+
+using support::Error;
+using support::Status;
+
+constexpr std::size_t least_support = 8;       // poses below which a computed policy is not trusted
+constexpr double voxel_bit = 10.0;             // how much dearer a bit is on voxels than on poses
+constexpr std::array<std::pair<Solver, const char*>, 7> names{{{Solver::rtdp_bel, "rtdp-bel"},
+                                                                {Solver::rtdp_inad, "rtdp-inad"},
+                                                                {Solver::rtdp_ad, "rtdp-ad"},
+                                                                {Solver::brtdp_bel, "brtdp-bel"},
+                                                                {Solver::tbl, "tbl"},
+                                                                {Solver::frontier, "frontier"},
+                                                                {Solver::rate, "rate"}}};
+
+std::optional<Greedy> greedy_of(Solver solver) {
+  switch (solver) {
+    case Solver::tbl: return Greedy::tbl;
+    case Solver::frontier: return Greedy::frontier;
+    case Solver::rate: return Greedy::rate;
+    default: return std::nullopt;
+  }
+}
+
+double epsilon_of(const PlannerOptions& options) {
+  if (options.solver == Solver::rtdp_inad) return 0.0;
+  return options.solver == Solver::rtdp_ad ? 1.0 : options.epsilon;
+}
+
+void check(const PlannerOptions& options) {
+  const auto fail = [](const std::string& what) { throw Error(Status::invalid_argument, "planner options: " + what); };
+  if (options.solver == Solver::brtdp_bel) fail("solver: found brtdp-bel, which this version does not have, expected rtdp-bel, rtdp-inad, rtdp-ad, tbl, frontier or rate");
+  if (!(options.budget_seconds > 0.0)) fail("budget_seconds: found " + std::to_string(options.budget_seconds) + ", expected a positive number");
+  if (std::isinf(options.budget_seconds) && options.budget_expansions == 0) fail("found no budget, expected seconds or expansions");
+  if (!(options.epsilon >= 0.0 && options.epsilon <= 1.0)) fail("epsilon: found " + std::to_string(options.epsilon) + ", expected 0 to 1");
+  if (options.horizon < 1) fail("horizon: found " + std::to_string(options.horizon) + ", expected at least 1");
+}
+
+}  // namespace
+
+std::optional<Solver> solver_from(const std::string& name) {
+  for (const auto& [solver, text] : names)
+    if (name == text) return solver;
+  return std::nullopt;
+}
+
+const char* name_of(Solver solver) {
+  for (const auto& [candidate, text] : names)
+    if (candidate == solver) return text;
+  return "unknown";
+}
+
+/// The partial policy of the last planning call, and the action that was handed out from it.
+struct Planner::Policy {
+  Search search;
+  int node = Search::start;              ///< the belief the handed-out action was for
+  std::size_t choice = 0;
+  std::size_t lead = 0;                  ///< waypoints of the action before the motion proper
+  std::uint64_t action_id = 0;
+  std::size_t history = 0;               ///< observations the belief had
+};
+
+Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOptions& options)
+    : model_(std::move(model)), options_(options), library_(std::make_shared<action::ActionLibrary>(*model_->task)), rng_(options.seed) {
+  check(options_);
+}
+
+Planner::~Planner() = default;
+
+Answer Planner::query(const belief::Belief& belief) {
+  cancelled_.store(false, std::memory_order_relaxed);
+  support::Deadline deadline(options_.budget_seconds, options_.budget_expansions == 0 ? UINT64_MAX : options_.budget_expansions, &cancelled_);
+  statistics_.from_policy = false;
+  statistics_.expansions = 0;
+  statistics_.seconds = 0.0;
+  if (belief.is_goal()) {
+    policy_.reset();
+    return {Answer::Kind::goal_reached, nullptr};
+  }
+  if (const auto node = followed(belief)) {
+    statistics_.from_policy = true;
+    Answer answer = act(belief, *node, deadline);
+    if (answer.action) return answer;
+    statistics_.from_policy = false;
+  }
+  plan(belief, deadline);
+  Answer answer = act(belief, Search::start, deadline);
+  statistics_.expansions = deadline.expansions();
+  statistics_.seconds = deadline.elapsed_seconds();
+  ++statistics_.total_calls;
+  statistics_.total_expansions += statistics_.expansions;
+  statistics_.total_seconds += statistics_.seconds;
+  return answer;
+}
+
+/// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed for it.
+std::optional<int> Planner::followed(const belief::Belief& belief) {
+  if (!policy_ || greedy_of(options_.solver) || belief.history().size() != policy_->history + 1) return std::nullopt;
+  const belief::Trace& last = belief.history().back();
+  if (last.action_id != policy_->action_id || last.outcome <= policy_->lead) return std::nullopt;
+  const std::size_t waypoint = last.outcome - policy_->lead;
+  const std::vector<Outcome>& outcomes = policy_->search.choices(policy_->node)[policy_->choice].outcomes;
+  for (std::size_t z = 0; z < outcomes.size(); ++z) {
+    if (outcomes[z].waypoint != waypoint) continue;
+    const int child = policy_->search.child(policy_->node, policy_->choice, z);
+    if (child < 0 || !policy_->search.expanded(child)) return std::nullopt;
+    const BeliefState& state = policy_->search.state(child);
+    if (state.support_size() < least_support || state.configuration() != belief.configuration()) return std::nullopt;
+    return child;
+  }
+  return std::nullopt;
+}
+
+void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
+  BeliefStatePtr start;
+  if (belief.phase() == belief::Phase::voxels) {
+    start = std::make_shared<VoxelProblem>(model_, library_, voxel_bit * options_.cost_per_bit)->start(belief.configuration(), belief.voxels());
+  } else {
+    start = std::make_shared<PoseProblem>(model_->task, library_, belief.draw(model_->options.particles, rng_), belief.summary().bits, options_.cost_per_bit)
+                ->start(belief.configuration());
+  }
+  policy_ = std::make_unique<Policy>(Policy{Search(std::move(start), {epsilon_of(options_), options_.horizon})});
+  if (greedy_of(options_.solver))
+    policy_->search.expand_start(deadline);
+  else
+    policy_->search.run(deadline);
+}
+
+/// The best motion at a node, made executable; the next best where the robot can't get to its start.
+Answer Planner::act(const belief::Belief& belief, int node, const support::Deadline& deadline) {
+  const Search& search = policy_->search;
+  const std::vector<Choice>& choices = search.choices(node);
+  std::vector<bool> banned(choices.size(), false);
+  const auto next = [&] {
+    const auto rule = greedy_of(options_.solver);
+    return rule ? greedy_choice(choices, *rule, banned) : search.best(node, banned);
+  };
+  for (auto choice = next(); choice; choice = next()) {
+    const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
+    if (auto made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited)) {
+      made->expected_cost = search.q_value(node, *choice, ValueType::inadmissible);
+      made->contact_probability = choices[*choice].contact_probability();
+      statistics_.lower_bound = search.value(node, ValueType::admissible);
+      statistics_.value = search.value(node, ValueType::inadmissible);
+      policy_->node = node;
+      policy_->choice = *choice;
+      policy_->lead = made->lead;
+      policy_->action_id = made->id;
+      policy_->history = belief.history().size();
+      return {Answer::Kind::action, std::make_shared<const action::Action>(std::move(*made))};
+    }
+    if (deadline.cancelled()) return {Answer::Kind::cancelled, nullptr};
+    banned[*choice] = true;
+  }
+  policy_.reset();
+  return {Answer::Kind::no_informative_action, nullptr};
+}
+
+}  // namespace tactus::solver

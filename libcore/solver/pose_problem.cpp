@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/pose_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "action/insertion.hpp"
+#include "action/probes.hpp"
+
+namespace tactus::solver {
+
+using action::Motion;
+using action::MotionPtr;
+using geometry::Pose;
+using robot::JointVector;
+using support::Bitset;
+
+namespace {
+
+constexpr int lines_per_side = 5;
+constexpr std::size_t inner_candidates = 2;  // insertion attempts considered below the start
+constexpr double same_seat = 0.0015;         // m between seated poses that one attempt may serve
+constexpr double lever = 0.02;               // m by which a turn counts as a shift there
+
+std::uint64_t salt_of(const JointVector& q) { return action::path_id({q}); }
+
+}  // namespace
+
+/// A configuration and a set of the problem's poses.
+class PoseState : public BeliefState {
+ public:
+  PoseState(std::shared_ptr<PoseProblem> problem, JointVector q, Bitset members, bool at_start)
+      : problem_(std::move(problem)), q_(std::move(q)), members_(std::move(members)), at_start_(at_start) {}
+
+  support::Hash128 hash() const override { return members_.hash(salt_of(q_)); }
+  const JointVector& configuration() const override { return q_; }
+  std::size_t support_size() const override { return members_.count(); }
+
+  Values heuristic() const override {
+    double sum = 0.0;
+    const Pose base_from_tool = problem_->task_->base_from_tool(q_);
+    members_.for_each([&](std::size_t pose) { sum += problem_->direct_cost(base_from_tool, pose); });
+    return values(sum / static_cast<double>(members_.count()), members_.count());
+  }
+
+  std::vector<Choice> choices() const override {
+    std::vector<Choice> result;
+    const auto consider = [&](const MotionPtr& motion) {
+      if (!motion) return;
+      Choice choice = weigh(motion);
+      const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
+      if (informs || !motion->anchored) result.push_back(std::move(choice));
+    };
+    for (const MotionPtr& motion : problem_->anchored(q_)) consider(motion);
+    for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);
+    const std::size_t attempts = at_start_ ? static_cast<std::size_t>(problem_->task_->options().actions.insertion_candidates) : inner_candidates;
+    for (const std::size_t pose : problem_->insertion_candidates(members_, attempts)) consider(problem_->insertion_at(pose, q_));
+    return result;
+  }
+
+  BeliefStatePtr successor(const Choice& choice, const Outcome& outcome) const override {
+    Bitset left(members_.size());
+    members_.for_each([&](std::size_t pose) {
+      if (problem_->first_contact(choice.motion, pose) == outcome.waypoint) left.set(pose);
+    });
+    const auto& path = choice.motion->path;
+    const bool contact = outcome.waypoint < path.size();
+    return std::make_shared<PoseState>(problem_, contact ? path[outcome.waypoint - 1] : path.back(), std::move(left), false);
+  }
+
+ private:
+  /// h_ad is the mean cost of going straight to the seat; h_inad adds what the missing bits are worth.
+  Values values(double direct, std::size_t count) const {
+    const double share = static_cast<double>(count) / static_cast<double>(problem_->poses_.size());
+    const double bits = std::max(std::log2(static_cast<double>(count)), problem_->bits_ + std::log2(share));
+    return {direct, direct + problem_->cost_per_bit_ * std::max(0.0, bits)};
+  }
+
+  Choice weigh(const MotionPtr& motion) const {
+    std::map<std::size_t, std::vector<std::size_t>> split;
+    members_.for_each([&](std::size_t pose) { split[problem_->first_contact(motion, pose)].push_back(pose); });
+    const auto total = static_cast<double>(members_.count());
+    const double lead = motion->anchored ? action::transit_cost(*problem_->task_, problem_->task_->base_from_tool(q_), motion->base_from_start) : 0.0;
+    Choice choice{motion, {}};
+    for (const auto& [waypoint, group] : split) {
+      Outcome outcome;
+      outcome.waypoint = waypoint;
+      outcome.probability = static_cast<double>(group.size()) / total;
+      const std::size_t reached = std::min(waypoint, motion->path.size() - 1);
+      outcome.cost = problem_->task_->options().cost.action + lead + motion->cost_to[reached];
+      outcome.goal = waypoint == motion->path.size() && motion->kind == action::Kind::insertion &&
+                     std::all_of(group.begin(), group.end(), [&](std::size_t pose) { return problem_->seated(*motion, pose); });
+      if (!outcome.goal) outcome.heuristic = group_heuristic(*motion, waypoint, group);
+      choice.outcomes.push_back(outcome);
+    }
+    return choice;
+  }
+
+  Values group_heuristic(const Motion& motion, std::size_t waypoint, const std::vector<std::size_t>& group) const {
+    const Pose& base_from_tool = motion.bodies.base_from_body(waypoint - 1, 0);
+    double sum = 0.0;
+    for (const std::size_t pose : group) sum += problem_->direct_cost(base_from_tool, pose);
+    return values(sum / static_cast<double>(group.size()), group.size());
+  }
+
+  std::shared_ptr<PoseProblem> problem_;
+  JointVector q_;
+  Bitset members_;
+  bool at_start_;
+};
+
+PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library, std::vector<Pose> poses, double bits,
+                         double cost_per_bit)
+    : task_(std::move(task)), library_(std::move(library)), poses_(std::move(poses)), bits_(bits), cost_per_bit_(cost_per_bit) {
+  for (const Pose& pose : poses_) seated_.push_back(task_->scene().seated(pose));
+}
+
+BeliefStatePtr PoseProblem::start(const JointVector& q) { return std::make_shared<PoseState>(shared_from_this(), q, Bitset(poses_.size(), true), true); }
+
+std::size_t PoseProblem::first_contact(const MotionPtr& motion, std::size_t pose) {
+  auto [entry, is_new] = predictions_.try_emplace(motion.get());
+  if (is_new) {
+    entry->second.first_contact.assign(poses_.size(), -1);
+    kept_.push_back(motion);
+  }
+  std::int32_t& stored = entry->second.first_contact[pose];
+  if (stored < 0)
+    stored = static_cast<std::int32_t>(task_->target_contact().first_contact(motion->bodies, poses_[pose]).value_or(motion->path.size()));
+  return static_cast<std::size_t>(stored);
+}
+
+bool PoseProblem::seated(const Motion& motion, std::size_t pose) const {
+  return task_->scene().is_seated(motion.bodies.base_from_body(motion.path.size() - 1, 0), poses_[pose]);
+}
+
+const std::vector<MotionPtr>& PoseProblem::anchored(const JointVector& near) {
+  if (!anchored_made_) anchored_ = action::probes(*task_, region(), near, lines_per_side);
+  anchored_made_ = true;
+  return anchored_;
+}
+
+MotionPtr PoseProblem::insertion_at(std::size_t pose, const JointVector& near) {
+  const auto [entry, is_new] = insertions_.try_emplace(pose, nullptr);
+  if (is_new) entry->second = action::insertion(*task_, poses_[pose], near);
+  return entry->second;
+}
+
+/// The poses whose seats have the most others near by, each standing for a different group.
+std::vector<std::size_t> PoseProblem::insertion_candidates(const Bitset& members, std::size_t most) const {
+  std::vector<std::size_t> left, chosen;
+  members.for_each([&](std::size_t pose) { left.push_back(pose); });
+  const auto near = [&](std::size_t a, std::size_t b) {
+    return (seated_[a].translation() - seated_[b].translation()).norm() + lever * geometry::angle_between(seated_[a], seated_[b]) < same_seat;
+  };
+  while (!left.empty() && chosen.size() < most) {
+    std::size_t best = left.front();
+    std::ptrdiff_t densest = 0;
+    for (const std::size_t a : left) {
+      const auto neighbours = std::count_if(left.begin(), left.end(), [&](std::size_t b) { return near(a, b); });
+      if (neighbours > densest) densest = neighbours, best = a;
+    }
+    chosen.push_back(best);
+    std::erase_if(left, [&](std::size_t pose) { return near(best, pose); });
+    if (densest <= 1) break;
+  }
+  return chosen;
+}
+
+double PoseProblem::direct_cost(const Pose& base_from_tool, std::size_t pose) const {
+  const action::CostWeights& weights = task_->options().cost;
+  return weights.metre * (seated_[pose].translation() - base_from_tool.translation()).norm() +
+         weights.radian * geometry::angle_between(base_from_tool, seated_[pose]) + weights.action;
+}
+
+/// The box in the search frame of the target at every pose.
+geometry::Box PoseProblem::region() const {
+  geometry::Box box;
+  const Pose search_from_base = task_->frame().base_from_search.inverse();
+  const geometry::Box local = geometry::bounds(task_->scene().target.mesh);
+  for (const Pose& pose : poses_)
+    for (int corner = 0; corner < 8; ++corner) {
+      const geometry::Vector3 p(corner & 1 ? local.high.x() : local.low.x(), corner & 2 ? local.high.y() : local.low.y(), corner & 4 ? local.high.z() : local.low.z());
+      box.add(search_from_base * (pose * p));
+    }
+  return box;
+}
+
+}  // namespace tactus::solver

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <unordered_map>
+
+#include "belief/belief.hpp"
+#include "solver/problem.hpp"
+
+namespace tactus::solver {
+
+/// What planning on poses shares between its beliefs: the poses drawn for one planning call, the motions made for them, and where each pose is first touched on each motion.
+/// One thread.
+class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
+ public:
+  /// `bits`: log2 of how many tolerances the full belief spans; `cost_per_bit` in units of cost.
+  PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library, std::vector<geometry::Pose> poses, double bits, double cost_per_bit);
+
+  /// The belief at the start: all poses.
+  BeliefStatePtr start(const robot::JointVector& q);
+
+ private:
+  friend class PoseState;
+  struct Prediction {
+    std::vector<std::int32_t> first_contact;   ///< by pose; -1 not computed yet; the path's size: none
+  };
+
+  std::size_t first_contact(const action::MotionPtr& motion, std::size_t pose);
+  bool seated(const action::Motion& motion, std::size_t pose) const;
+  const std::vector<action::MotionPtr>& anchored(const robot::JointVector& near);
+  action::MotionPtr insertion_at(std::size_t pose, const robot::JointVector& near);
+  std::vector<std::size_t> insertion_candidates(const support::Bitset& members, std::size_t most) const;
+  double direct_cost(const geometry::Pose& base_from_tool, std::size_t pose) const;
+  geometry::Box region() const;
+
+  std::shared_ptr<const action::Task> task_;
+  std::shared_ptr<action::ActionLibrary> library_;
+  std::vector<geometry::Pose> poses_;
+  std::vector<geometry::Pose> seated_;       ///< tool link, base frame, by pose
+  double bits_;
+  double cost_per_bit_;
+  std::vector<action::MotionPtr> anchored_;
+  bool anchored_made_ = false;
+  std::unordered_map<std::size_t, action::MotionPtr> insertions_;
+  std::unordered_map<const action::Motion*, Prediction> predictions_;
+  std::vector<action::MotionPtr> kept_;      ///< motions whose predictions are stored, so that no address is used twice
+};
+
+}  // namespace tactus::solver

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "action/motion.hpp"
+#include "support/bitset.hpp"
+
+namespace tactus::solver {
+
+/// The two value functions of the paper's Algorithm 1: one from a heuristic that never overestimates, one from a greedy one.
+enum class ValueType { admissible = 0, inadmissible = 1 };
+using Values = std::array<double, 2>;  ///< indexed by `ValueType`, in units of cost
+
+/// What may come of a motion: first contact at a waypoint, or none (`waypoint` is then the path's size).
+struct Outcome {
+  std::size_t waypoint = 0;
+  double probability = 0.0;
+  double cost = 0.0;     ///< of the motion up to there, the way to its start and back to the last free waypoint
+  bool goal = false;     ///< the successor needs nothing more
+  Values heuristic{};    ///< of the successor; 0 at the goal
+};
+
+/// A motion weighed at a belief. The outcomes' probabilities sum to one.
+struct Choice {
+  action::MotionPtr motion;
+  std::vector<Outcome> outcomes;
+  double expected_cost() const;          ///< C(b, a)
+  double contact_probability() const;
+  double information() const;            ///< expected bits by which the outcomes split the belief
+};
+
+/// A belief as the solver sees it, whichever representation is behind it. Immutable, but for what is computed on first use.
+class BeliefState {
+ public:
+  virtual ~BeliefState() = default;
+
+  virtual support::Hash128 hash() const = 0;   ///< equal for equal beliefs
+  virtual const robot::JointVector& configuration() const = 0;
+  virtual Values heuristic() const = 0;
+  virtual std::size_t support_size() const = 0;   ///< poses or voxels that the belief rests on
+
+  /// Every motion worth considering with what may come of it: the expensive part of an expansion.
+  virtual std::vector<Choice> choices() const = 0;
+
+  /// The belief after an outcome that is not the goal.
+  virtual std::shared_ptr<const BeliefState> successor(const Choice& choice, const Outcome& outcome) const = 0;
+};
+
+using BeliefStatePtr = std::shared_ptr<const BeliefState>;
+
+}  // namespace tactus::solver

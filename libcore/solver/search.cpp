@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::solver {
+namespace {
+
+constexpr double value_change = 1e-9;
+
+std::size_t most_likely(const Choice& choice) {
+  const auto found = std::max_element(choice.outcomes.begin(), choice.outcomes.end(),
+                                      [](const Outcome& a, const Outcome& b) { return a.probability < b.probability; });
+  return static_cast<std::size_t>(found - choice.outcomes.begin());
+}
+
+}  // namespace
+
+double Choice::expected_cost() const {
+  double sum = 0.0;
+  for (const Outcome& outcome : outcomes) sum += outcome.probability * outcome.cost;
+  return sum;
+}
+
+double Choice::contact_probability() const {
+  double sum = 0.0;
+  for (const Outcome& outcome : outcomes)
+    if (outcome.waypoint < motion->path.size()) sum += outcome.probability;
+  return sum;
+}
+
+double Choice::information() const {
+  double bits = 0.0;
+  for (const Outcome& outcome : outcomes)
+    if (outcome.probability > 0.0) bits -= outcome.probability * std::log2(outcome.probability);
+  return bits;
+}
+
+Search::Search(BeliefStatePtr start_state, const SearchOptions& options) : options_(options) { intern(std::move(start_state)); }
+
+void Search::run(support::Deadline& deadline) {
+  if (!nodes_[start].expanded) expand(start, deadline);
+  bool admissible_done = options_.epsilon <= 0.0;
+  while (!deadline.spent()) {
+    const bool explore = !admissible_done && deadline.used_fraction() < options_.epsilon;
+    const bool changed = trial(deadline, explore ? ValueType::admissible : ValueType::inadmissible);
+    if (changed) continue;
+    if (!explore) break;
+    admissible_done = true;
+    if (options_.epsilon >= 1.0) break;
+  }
+}
+
+/// One trial; says whether it changed anything.
+bool Search::trial(support::Deadline& deadline, ValueType guide) {
+  bool changed = false;
+  int node = start;
+  for (int depth = 0; depth < options_.horizon && !deadline.spent(); ++depth) {
+    if (!nodes_[node].expanded) {
+      expand(node, deadline);
+      changed = true;
+    }
+    changed = update(node) || changed;
+    const auto choice = best_by(node, guide);
+    if (!choice) break;
+    const std::size_t outcome = most_likely(nodes_[node].choices[*choice]);
+    if (nodes_[node].choices[*choice].outcomes[outcome].goal) break;
+    node = follow(node, *choice, outcome);
+  }
+  return changed;
+}
+
+void Search::expand(int index, support::Deadline& deadline) {
+  Node& node = nodes_[index];
+  node.choices = node.state->choices();
+  for (const Choice& choice : node.choices) node.children.emplace_back(choice.outcomes.size(), -1);
+  node.expanded = true;
+  deadline.count_expansion();
+  update(index);
+}
+
+/// V(b) := min over a of Q(b, a), for both types.
+bool Search::update(int index) {
+  bool changed = false;
+  for (const ValueType type : {ValueType::admissible, ValueType::inadmissible}) {
+    const auto choice = best_by(index, type);
+    if (!choice) continue;
+    const double value = q_value(index, *choice, type);
+    double& stored = nodes_[index].value[static_cast<int>(type)];
+    changed = changed || std::abs(value - stored) > value_change;
+    stored = value;
+  }
+  return changed;
+}
+
+/// Q(b, a) = C(b, a) + sum over z of P(z | b, a) V(b_a^z), with the heuristic where no value is known.
+double Search::q_value(int index, std::size_t choice, ValueType type) const {
+  const Node& node = nodes_[index];
+  double sum = 0.0;
+  for (std::size_t z = 0; z < node.choices[choice].outcomes.size(); ++z) {
+    const Outcome& outcome = node.choices[choice].outcomes[z];
+    const int child_index = node.children[choice][z];
+    const double ahead = child_index >= 0 ? value(child_index, type) : outcome.heuristic[static_cast<int>(type)];
+    sum += outcome.probability * (outcome.cost + ahead);
+  }
+  return sum;
+}
+
+std::optional<std::size_t> Search::best_by(int index, ValueType type, const std::vector<bool>& banned) const {
+  std::optional<std::size_t> best;
+  double lowest = 1e300;
+  for (std::size_t choice = 0; choice < nodes_[index].choices.size(); ++choice) {
+    if (choice < banned.size() && banned[choice]) continue;
+    const double q = q_value(index, choice, type);
+    if (q < lowest) lowest = q, best = choice;
+  }
+  return best;
+}
+
+std::optional<std::size_t> Search::best(int node, const std::vector<bool>& banned) const {
+  return best_by(node, options_.epsilon >= 1.0 ? ValueType::admissible : ValueType::inadmissible, banned);
+}
+
+int Search::follow(int index, std::size_t choice, std::size_t outcome) {
+  const int known = nodes_[index].children[choice][outcome];
+  if (known >= 0) return known;
+  const Choice& taken = nodes_[index].choices[choice];
+  const int next = intern(nodes_[index].state->successor(taken, taken.outcomes[outcome]));
+  nodes_[index].children[choice][outcome] = next;
+  return next;
+}
+
+int Search::intern(BeliefStatePtr state) {
+  const auto [entry, is_new] = index_.try_emplace(state->hash(), static_cast<int>(nodes_.size()));
+  if (is_new) {
+    Node node;
+    node.value = state->heuristic();
+    node.state = std::move(state);
+    nodes_.push_back(std::move(node));
+  }
+  return entry->second;
+}
+
+}  // namespace tactus::solver

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/voxel_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "action/probes.hpp"
+
+namespace tactus::solver {
+
+using action::Motion;
+using action::MotionPtr;
+using belief::VoxelBelief;
+using contact::Bitset;
+using contact::SweptVoxels;
+using contact::VoxelGrid;
+using geometry::Box;
+using geometry::Pose;
+using geometry::Vector3;
+using robot::JointVector;
+
+namespace {
+
+constexpr double overlap_epsilon = 1.0;   // the paper's epsilon, in voxels
+constexpr double least_probability = 1e-6;
+constexpr int lines_per_side = 9;
+
+/// How many voxels of a set lie in a box: sums over all boxes from the grid's corner.
+class BoxCounts {
+ public:
+  BoxCounts(const Bitset& set, const VoxelGrid& grid) : grid_(grid), sums_(std::size_t(grid.shape()[0] + 1) * (grid.shape()[1] + 1) * (grid.shape()[2] + 1)) {
+    const auto [nx, ny, nz] = grid.shape();
+    for (int z = 0; z < nz; ++z)
+      for (int y = 0; y < ny; ++y) {
+        std::int32_t row = 0;
+        for (int x = 0; x < nx; ++x) {
+          row += set.test(grid.index(x, y, z));
+          at(x + 1, y + 1, z + 1) = row + at(x + 1, y, z + 1) + at(x + 1, y + 1, z) - at(x + 1, y, z);
+        }
+      }
+  }
+
+  int in(const Box& box) const {
+    std::array<int, 3> low, high;
+    grid_.range(box, low, high);
+    for (int d = 0; d < 3; ++d)
+      if (low[d] >= high[d]) return 0;
+    int sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const int sign = (corner & 1 ? 1 : -1) * (corner & 2 ? 1 : -1) * (corner & 4 ? 1 : -1);
+      sum += sign * at(corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1], corner & 4 ? high[2] : low[2]);
+    }
+    return sum;
+  }
+
+ private:
+  std::size_t index(int x, int y, int z) const {
+    return std::size_t(x) + std::size_t(grid_.shape()[0] + 1) * (std::size_t(y) + std::size_t(grid_.shape()[1] + 1) * std::size_t(z));
+  }
+  std::int32_t& at(int x, int y, int z) { return sums_[index(x, y, z)]; }
+  std::int32_t at(int x, int y, int z) const { return sums_[index(x, y, z)]; }
+
+  const VoxelGrid& grid_;
+  std::vector<std::int32_t> sums_;
+};
+
+Box box_of(const Bitset& set, const VoxelGrid& grid, const Pose& frame_from_base) {
+  Box box;
+  set.for_each([&](std::size_t v) { box.add(frame_from_base * grid.centre(v)); });
+  return box;
+}
+
+}  // namespace
+
+double contact_likelihood(double entered, double possibly_occupied, double target_voxels, double diameter, const std::vector<ContactEvidence>& contacts) {
+  if (entered <= 0.0) return 0.0;
+  const double others = possibly_occupied - target_voxels;
+  double likelihood = others <= entered ? 1.0 : entered / others;
+  for (const ContactEvidence& c : contacts)
+    likelihood *= (c.overlap + overlap_epsilon) / (c.size + overlap_epsilon) * std::max(0.0, 1.0 - std::max(0.0, c.distance) / diameter);
+  return std::min(1.0, likelihood);
+}
+
+std::vector<double> first_contact_probabilities(const std::vector<double>& likelihood) {
+  std::vector<double> probabilities;
+  double still_free = 1.0;
+  for (const double at : likelihood) {
+    probabilities.push_back(still_free * at);
+    still_free *= 1.0 - at;
+  }
+  probabilities.push_back(still_free);
+  return probabilities;
+}
+
+/// A configuration, PO and C.
+class VoxelState : public BeliefState {
+ public:
+  VoxelState(std::shared_ptr<VoxelProblem> problem, JointVector q, VoxelBelief voxels)
+      : problem_(std::move(problem)), q_(std::move(q)), voxels_(std::move(voxels)), count_(voxels_.possibly_occupied().count()) {}
+
+  support::Hash128 hash() const override {
+    std::uint64_t salt = action::path_id({q_});
+    for (const belief::ContactRecord& record : voxels_.contacts()) salt ^= record.candidates.hash(1).low;
+    return voxels_.possibly_occupied().hash(salt);
+  }
+  const JointVector& configuration() const override { return q_; }
+  std::size_t support_size() const override { return count_; }
+  Values heuristic() const override { return done() ? Values{} : problem_->heuristic(static_cast<double>(count_), nearest(problem_->model_->task->base_from_tool(q_))); }
+
+  std::vector<Choice> choices() const override {
+    if (done()) return {};
+    std::vector<Choice> result;
+    const BoxCounts counts(voxels_.possibly_occupied(), grid());
+    const auto consider = [&](const MotionPtr& motion) {
+      Choice choice = weigh(motion, counts);
+      if (choice.outcomes.size() > 1 || !motion->anchored) result.push_back(std::move(choice));
+    };
+    for (const MotionPtr& motion : problem_->anchored(voxels_, q_)) consider(motion);
+    for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);
+    return result;
+  }
+
+  BeliefStatePtr successor(const Choice& choice, const Outcome& outcome) const override {
+    const Motion& motion = *choice.motion;
+    const SweptVoxels& swept = problem_->swept(choice.motion);
+    VoxelBelief next = voxels_;
+    if (outcome.waypoint == motion.path.size()) {
+      next.remove_free(swept.voxels, swept.voxels.size());
+      return std::make_shared<VoxelState>(problem_, motion.path.back(), std::move(next));
+    }
+    const action::Task& task = *problem_->model_->task;
+    next.remove_free(swept.voxels, swept.entered_by(outcome.waypoint - 1));
+    const double step = motion.bodies.travelled(outcome.waypoint, 0) - motion.bodies.travelled(outcome.waypoint - 1, 0);
+    next.add_contact(contact::contact_candidates(task.bodies(), motion.bodies, outcome.waypoint, grid(), step));
+    return std::make_shared<VoxelState>(problem_, motion.path[outcome.waypoint - 1], std::move(next));
+  }
+
+ private:
+  const VoxelGrid& grid() const { return voxels_.model().grid; }
+  bool done() const { return count_ <= problem_->model_->options.delta; }
+
+  double nearest(const Pose& base_from_tool) const {
+    const Box box = box_of(voxels_.possibly_occupied(), grid(), Pose::Identity());
+    return std::max(0.0, box.distance(base_from_tool.translation()) - problem_->tool_reach_);
+  }
+
+  /// |S n PO| and the evidence of C for each waypoint; S counts what a no-contact outcome would remove.
+  Choice weigh(const MotionPtr& motion, const BoxCounts& counts) const {
+    const SweptVoxels& swept = problem_->swept(motion);
+    const std::size_t waypoints = motion->path.size();
+    std::vector<double> likelihood(waypoints, 0.0), removed(waypoints, 0.0);
+    std::vector<Box> entered_box(waypoints);
+    const std::vector<belief::ContactRecord>& contacts = voxels_.contacts();
+    double total = 0.0;
+    for (std::size_t i = 1; i < waypoints; ++i) {
+      double entered = 0.0;
+      std::vector<ContactEvidence> evidence(contacts.size(), {0.0, 0.0, 1e30});
+      for (std::size_t k = swept.entered_by(i - 1); k < swept.entered_by(i); ++k) {
+        const std::size_t v = swept.voxels[k];
+        if (!voxels_.possibly_occupied().test(v)) continue;
+        entered += 1.0;
+        entered_box[i].add(grid().centre(v));
+        for (std::size_t c = 0; c < contacts.size(); ++c) {
+          evidence[c].overlap += contacts[c].candidates.test(v) ? 1.0 : 0.0;
+          evidence[c].distance = std::min(evidence[c].distance, static_cast<double>(contacts[c].distance[v]));
+        }
+      }
+      for (std::size_t c = 0; c < contacts.size(); ++c) evidence[c].size = static_cast<double>(contacts[c].candidates.count());
+      likelihood[i] = contact_likelihood(entered, static_cast<double>(count_), voxels_.model().target_voxels, voxels_.model().diameter, evidence);
+      removed[i] = total += entered;
+    }
+    return choice_of(motion, first_contact_probabilities(likelihood), removed, entered_box, counts);
+  }
+
+  Choice choice_of(const MotionPtr& motion, const std::vector<double>& probability, const std::vector<double>& removed,
+                   const std::vector<Box>& entered_box, const BoxCounts& counts) const {
+    const action::Task& task = *problem_->model_->task;
+    const std::size_t waypoints = motion->path.size();
+    const double lead = motion->anchored ? action::transit_cost(task, task.base_from_tool(q_), motion->base_from_start) : 0.0;
+    const double within = voxels_.model().diameter + grid().half_diagonal();
+    const auto delta = static_cast<double>(problem_->model_->options.delta);
+    Choice choice{motion, {}};
+    double kept = 0.0;
+    for (std::size_t i = 1; i <= waypoints; ++i) {
+      if (probability[i] < least_probability && i < waypoints) continue;
+      Outcome outcome;
+      outcome.waypoint = i;
+      outcome.probability = probability[i];
+      kept += outcome.probability;
+      outcome.cost = task.options().cost.action + lead + motion->cost_to[std::min(i, waypoints - 1)];
+      double left = static_cast<double>(count_) - removed[std::min(i, waypoints) - 1];
+      if (i < waypoints) left = std::min(left, static_cast<double>(counts.in(entered_box[i].inflated(within))));
+      outcome.goal = left <= delta;
+      const Vector3 tool = motion->bodies.base_from_body(std::min(i, waypoints - 1), 0).translation();
+      const double away = i < waypoints ? 0.0 : std::max(0.0, grid().box().distance(tool) - problem_->tool_reach_);
+      if (!outcome.goal) outcome.heuristic = problem_->heuristic(left, away);
+      choice.outcomes.push_back(outcome);
+    }
+    if (choice.outcomes.back().probability < least_probability && choice.outcomes.size() > 1) {
+      kept -= choice.outcomes.back().probability;
+      choice.outcomes.pop_back();
+    }
+    for (Outcome& outcome : choice.outcomes) outcome.probability /= kept;
+    return choice;
+  }
+
+  std::shared_ptr<VoxelProblem> problem_;
+  JointVector q_;
+  VoxelBelief voxels_;
+  std::size_t count_;
+};
+
+VoxelProblem::VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library, double cost_per_bit)
+    : model_(std::move(model)), library_(std::move(library)), cost_per_bit_(cost_per_bit) {
+  for (const Vector3& v : model_->task->scene().tool.vertices) tool_reach_ = std::max(tool_reach_, v.norm());
+}
+
+BeliefStatePtr VoxelProblem::start(const JointVector& q, const VoxelBelief& voxels) { return std::make_shared<VoxelState>(shared_from_this(), q, voxels); }
+
+const SweptVoxels& VoxelProblem::swept(const MotionPtr& motion) {
+  const auto [entry, is_new] = swept_.try_emplace(motion.get());
+  if (is_new) {
+    entry->second = contact::swept_voxels(model_->task->bodies(), motion->bodies, model_->voxels->grid);
+    kept_.push_back(motion);
+  }
+  return entry->second;
+}
+
+const std::vector<MotionPtr>& VoxelProblem::anchored(const VoxelBelief& voxels, const JointVector& near) {
+  if (!anchored_made_) {
+    const Box box = box_of(voxels.possibly_occupied(), voxels.model().grid, model_->task->frame().base_from_search.inverse());
+    anchored_ = action::probes(*model_->task, box.inflated(0.5 * voxels.model().grid.pitch()), near, lines_per_side);
+  }
+  anchored_made_ = true;
+  return anchored_;
+}
+
+/// h_ad: the way to the nearest voxel that may be occupied; h_inad adds what the bits down to delta are worth.
+Values VoxelProblem::heuristic(double count, double to_nearest) const {
+  const double least = model_->task->options().cost.metre * to_nearest + model_->task->options().cost.action;
+  const double bits = std::log2(std::max(1.0, count / std::max(1.0, static_cast<double>(model_->options.delta))));
+  return {least, least + cost_per_bit_ * bits};
+}
+
+}  // namespace tactus::solver
