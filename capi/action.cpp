@@ -49,8 +49,7 @@ tactus_action_properties properties_of(const action::Action& action) {
 
 belief::Observation capi::observation_from(const tactus_observation* observation, int dof) {
   const tactus_observation given = read_struct(observation, tactus_observation{}, "observation");
-  if (given.contact != 0 && given.contact != 1)
-    reject("observation.contact", std::to_string(given.contact), "0 or 1");
+  if (given.contact != 0 && given.contact != 1) reject("observation.contact", std::to_string(given.contact), "0 or 1");
   if (given.joint_count != static_cast<std::uint64_t>(dof))
     reject("observation.joint_count", std::to_string(given.joint_count), std::to_string(dof));
   return {given.contact == 1, joints_from(given.joints, dof, "observation.joints")};
@@ -105,8 +104,8 @@ tactus_status tactus_action_restore(const tactus_scenario* scenario, const uint8
   return guarded(__func__, [&] {
     tactus_action*& made = cleared(action, "action");
     const ScenarioPtr& contents = required(scenario, "scenario").contents;
-    auto restored = std::make_shared<const action::Action>(
-        action::restore(*contents->task, &required(bytes, "bytes"), size));
+    auto restored =
+        std::make_shared<const action::Action>(action::restore(*contents->task, &required(bytes, "bytes"), size));
     made = new tactus_action{contents, std::move(restored)};
   });
 }

@@ -40,9 +40,20 @@ tactus_summary summary_of(const belief::Summary& from) {
   return summary;
 }
 
+/// Saved bytes do not say of which kind the belief is: the one that they fit.
+belief::Belief restored(const scenario::Scenario& scenario, const uint8_t* bytes, std::size_t size) {
+  try {
+    return belief::Belief::restore(scenario.model_of(belief::Kind::hierarchical), bytes, size);
+  } catch (const Error& error) {
+    if (error.status() != Status::wrong_scenario) throw;
+    return belief::Belief::restore(scenario.model_of(belief::Kind::particles), bytes, size);
+  }
+}
+
 /// Holds a belief for one call.
 struct Held {
-  explicit Held(const tactus_belief* handle) : use(required(handle, "belief").in_use, "belief"), belief(handle->belief) {}
+  explicit Held(const tactus_belief* handle)
+      : use(required(handle, "belief").in_use, "belief"), belief(handle->belief) {}
 
   Use use;
   const belief::Belief& belief;
@@ -127,9 +138,8 @@ tactus_status tactus_belief_voxels(const tactus_belief* belief, double* centres,
     const std::size_t rows = any ? held.belief.voxels().possibly_occupied().count() : 0;
     double* out = room_for(rows, centres, capacity, count, "centres");
     if (out == nullptr || !any) return;
-    held.belief.voxels().possibly_occupied().for_each([&](std::size_t v) {
-      out = std::copy_n(held.belief.voxels().model().grid.centre(v).data(), 3, out);
-    });
+    held.belief.voxels().possibly_occupied().for_each(
+        [&](std::size_t v) { out = std::copy_n(held.belief.voxels().model().grid.centre(v).data(), 3, out); });
   });
 }
 
@@ -170,6 +180,6 @@ tactus_status tactus_belief_restore(const tactus_scenario* scenario, const uint8
   return guarded(__func__, [&] {
     tactus_belief*& made = cleared(belief, "belief");
     const ScenarioPtr& contents = required(scenario, "scenario").contents;
-    made = new tactus_belief(contents, belief::Belief::restore(contents->model, &required(bytes, "bytes"), size));
+    made = new tactus_belief(contents, restored(*contents, &required(bytes, "bytes"), size));
   });
 }

@@ -69,8 +69,9 @@ void write_pose(const geometry::Pose& pose, double* xyzq) {
 
 std::size_t checked_size(std::size_t size, const char* argument) {
   if (size < struct_block || size > largest_struct)
-    throw Error(Status::struct_size, std::string(argument) + ": found a struct of " + std::to_string(size) +
-                                         " bytes, expected the size of the caller's struct; its _init function sets it");
+    throw Error(Status::struct_size,
+                std::string(argument) + ": found a struct of " + std::to_string(size) +
+                    " bytes, expected the size of the caller's struct; its _init function sets it");
   return size;
 }
 
@@ -84,8 +85,8 @@ void check_tail(const unsigned char* bytes, std::size_t known, std::size_t size,
 
 Use::Use(std::atomic<bool>& in_use, const char* argument) : in_use_(in_use) {
   if (in_use_.exchange(true, std::memory_order_acquire))
-    throw Error(Status::busy, std::string(argument) +
-                                  ": found it in use by another call, expected one thread at a time");
+    throw Error(Status::busy,
+                std::string(argument) + ": found it in use by another call, expected one thread at a time");
 }
 
 }  // namespace tactus::capi

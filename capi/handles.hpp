@@ -58,8 +58,9 @@ inline int dof(const ScenarioPtr& scenario) { return scenario->task->scene().rob
 /// Throws `wrong_scenario` unless both were made from the same scenario handle.
 inline void check_same(const ScenarioPtr& expected, const ScenarioPtr& found, const char* argument) {
   if (expected != found)
-    throw Error(Status::wrong_scenario, std::string(argument) + ": found one of scenario '" + found->description.name +
-                                            "', expected one made from the same tactus_scenario as the object it is given to");
+    throw Error(Status::wrong_scenario,
+                std::string(argument) + ": found one of scenario '" + found->description.name +
+                    "', expected one made from the same tactus_scenario as the object it is given to");
 }
 
 /// What a `tactus_observation` says, checked.

@@ -62,10 +62,14 @@ tactus_statistics statistics_of(const solver::PlannerStatistics& from) {
 
 Status status_of(solver::Answer::Kind kind) {
   switch (kind) {
-    case solver::Answer::Kind::action: return Status::ok;
-    case solver::Answer::Kind::goal_reached: return Status::goal_reached;
-    case solver::Answer::Kind::no_informative_action: return Status::no_informative_action;
-    case solver::Answer::Kind::cancelled: return Status::cancelled;
+    case solver::Answer::Kind::action:
+      return Status::ok;
+    case solver::Answer::Kind::goal_reached:
+      return Status::goal_reached;
+    case solver::Answer::Kind::no_informative_action:
+      return Status::no_informative_action;
+    case solver::Answer::Kind::cancelled:
+      return Status::cancelled;
   }
   return Status::internal;
 }
@@ -79,7 +83,8 @@ const char* tactus_solver_name(tactus_solver solver) noexcept {
 tactus_status tactus_solver_from_name(const char* name, tactus_solver* solver) noexcept {
   return guarded(__func__, [&] {
     const auto found = solver::solver_from(&required(name, "name"));
-    if (!found) reject("name", "'" + std::string(name) + "'", "rtdp-bel, rtdp-inad, rtdp-ad, brtdp-bel, tbl, frontier or rate");
+    if (!found)
+      reject("name", "'" + std::string(name) + "'", "rtdp-bel, rtdp-inad, rtdp-ad, brtdp-bel, tbl, frontier or rate");
     required(solver, "solver") = static_cast<tactus_solver>(*found);
   });
 }

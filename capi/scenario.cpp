@@ -58,9 +58,8 @@ void tactus_scenario_destroy(tactus_scenario* scenario) noexcept { delete scenar
 // --- what it says
 
 tactus_status tactus_scenario_name(const tactus_scenario* scenario, const char** name) noexcept {
-  return guarded(__func__, [&] {
-    required(name, "name") = required(scenario, "scenario").contents->description.name.c_str();
-  });
+  return guarded(__func__,
+                 [&] { required(name, "name") = required(scenario, "scenario").contents->description.name.c_str(); });
 }
 
 tactus_status tactus_scenario_dof(const tactus_scenario* scenario, size_t* dof) noexcept {

@@ -7,7 +7,7 @@ The page is one file that needs no network. The record:
     bodies     [{name, kind: robot | tool | world | target, vertices: flat x y z in metres, triangles: flat indices}]
     frames     [{poses: a body each, x y z qx qy qz qw in the robot's base frame, action: index into steps, contact: bool}]
     steps      [{kind, phase, contact, cost_m, planning_s, belief: {points: [[x, y, z]], ...}}], the belief as it is after the action
-    belief     optional: the belief at the start, with the same keys
+    prior      optional: the belief at the start, with the same keys
     inserted   optional: whether the run ended plugged in
 """
 
@@ -50,6 +50,8 @@ class Step:
         self.cost, self.planning = record.get("cost_m"), record.get("planning_s")
         self.belief = record.get("belief") or belief or {}
         self.points = np.array(self.belief.get("points") or [], float).reshape(-1, 3)
+        room = np.maximum(np.ptp(self.points, axis=0), 0.005).prod() if len(self.points) else 0.0
+        self.dot = float(np.clip(0.35 * np.cbrt(room / max(len(self.points), 1)), 0.0025, 0.010))  # radius in metres at which dots stay apart
 
 
 class Run:
@@ -64,7 +66,7 @@ class Run:
         self.poses = np.array([frame["poses"] for frame in frames], float)
         self.action = np.array([frame.get("action") or 0 for frame in frames], int)
         self.contact = np.array([bool(frame.get("contact")) for frame in frames])
-        self.start = Step({"kind": "start"}, record.get("belief"))
+        self.start = Step({"kind": "start"}, record.get("prior"))
         self.steps = [Step(step) for step in record.get("steps") or []]
         self.contacts = self._contacts()
 
@@ -113,7 +115,7 @@ def page_data(run):
     def step_data(step):
         return {"kind": step.kind, "phase": step.phase, "contact": step.contact, "cost": step.cost, "planning": step.planning,
                 **{key: step.belief.get(key) for key in SHOWN},
-                "points": packed(thinned(step.points, MOST_POINTS), "<f4")}
+                "dot": step.dot, "points": packed(thinned(step.points, MOST_POINTS), "<f4")}
 
     return {"scenario": run.scenario, "frames": len(frames), "poses": packed(run.poses[frames], "<f4"),
             "action": run.action[frames].tolist(), "contact": run.contact[frames].astype(int).tolist(),

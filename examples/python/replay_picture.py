@@ -108,7 +108,7 @@ class Layer:
         return self.colour.reshape(self.camera.height // s, s, self.camera.width // s, s, 3).mean((1, 3)).clip(0, 1)
 
 
-def view(run, frame, camera, belief, contacts, target_opacity):
+def view(run, frame, camera, belief=None, contacts=(), target_opacity=1.0):
     """A frame, with walls that let one see through: their far side is solid, their near side a veil."""
     picture, near = Layer(camera, farthest=True), Layer(camera)
     for body, vertices in run.placed(frame, {"world"}):
@@ -123,7 +123,8 @@ def view(run, frame, camera, belief, contacts, target_opacity):
         target.draw(vertices, body.triangles, COLOURS["target"])
     picture.outline()
     target.outline()
-    picture.dots(belief, BELIEF, 0.0035, 0.28)
+    if belief:
+        picture.dots(belief.points, BELIEF, belief.dot, 0.3)
     picture.cover(target, target_opacity, target.inverse > picture.inverse)
     near.outline(0.8)
     picture.cover(near, 0.22, near.inverse > np.maximum(picture.inverse, target.inverse))
@@ -211,7 +212,7 @@ def wide_view(axes, run, away, beside):
     camera = Camera(middle + reach * (0.85 * away + 1.25 * beside + [0, 0, 0.45]), scene, 900, 960)
     before = run.steps[action - 1] if 0 < action <= len(run.steps) else run.start
     contacts = [point for touched, point in run.contacts if touched <= action]
-    show(axes, view(run, frame, camera, before.points, contacts, 0.55), f"Action {action + 1}" + (": the first contact" if len(touching) else ""))
+    show(axes, view(run, frame, camera, before, contacts, 0.55), f"Action {action + 1}" + (": the first contact" if len(touching) else ""))
 
 
 def close_view(axes, run, away, beside):
@@ -219,7 +220,7 @@ def close_view(axes, run, away, beside):
     parts = np.concatenate([vertices for _, vertices in run.placed(-1, {"tool", "target"}) or run.placed(-1, COLOURS)])
     middle = (parts.max(0) + parts.min(0)) / 2
     camera = Camera(middle + 0.55 * away + 0.50 * beside + [0, 0, 0.30], parts, 540, 560)
-    show(axes, view(run, -1, camera, [], [], 1.0), "Plugged in" if run.inserted else "The end")
+    show(axes, view(run, -1, camera), "Plugged in" if run.inserted else "The end")
 
 
 def write_picture(run, path):

@@ -1,1 +1,178 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <bit>
+#include <cmath>
+
+#include "action/archive.hpp"
+#include "belief/belief.hpp"
+#include "support/error.hpp"
+
+namespace tactus::belief {
+namespace {
+
+using support::ByteReader;
+using support::ByteWriter;
+
+constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 1};
+constexpr std::uint8_t most_splits = 60;  // of one dimension: far below any use
+
+/// A running hash of whatever a saved belief makes sense with only.
+class Fingerprint {
+ public:
+  void add(std::uint64_t word) { sum_ = support::mix(sum_ ^ word); }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value + 0.0)); }  // + 0.0: no minus zero
+  void add(const std::string& text) {
+    add(text.size());
+    for (const char letter : text) add(std::uint64_t{static_cast<std::uint8_t>(letter)});
+  }
+  void add(const geometry::Mesh& mesh) {
+    add(mesh.vertices.size());
+    for (const Vector3& v : mesh.vertices)
+      for (const double x : v) add(x);
+    for (const geometry::Triangle& t : mesh.triangles)
+      for (const std::int32_t index : t) add(static_cast<std::uint64_t>(index));
+  }
+  std::uint64_t sum() const { return sum_; }
+
+ private:
+  std::uint64_t sum_ = 0;
+};
+
+/// Of the target, the tool, the prior, the joints, and the options that shape the belief. The robot's frames are left out: they come from sines that need not
+/// be the same to the last bit on every machine.
+std::uint64_t fingerprint(const Model& model) {
+  const scene::Scene& scene = model.task->scene();
+  const Options& options = model.options;
+  Fingerprint print;
+  print.add(scene.target.mesh);
+  print.add(scene.tool);
+  for (int d = 0; d < 6; ++d) {
+    print.add(scene.prior.centre[d]);
+    print.add(scene.prior.width[d]);
+  }
+  for (const robot::Joint& joint : scene.robot->joints) print.add(joint.name);
+  print.add(model.task->options().contact_margin);
+  print.add(model.task->options().stop_tolerance);
+  print.add(static_cast<std::uint64_t>(options.kind));
+  print.add(options.voxel_size);
+  print.add(options.delta);
+  print.add(options.cells.position);
+  print.add(options.cells.angle);
+  print.add(options.cells.most);
+  print.add(options.cells.finest_radius);
+  return print.sum();
+}
+
+void write_set(ByteWriter& to, const Bitset& set) {
+  for (const std::uint64_t word : set.words()) to.u64(word);
+}
+
+Bitset read_set(ByteReader& from, std::size_t size, const char* field) {
+  Bitset set(size);
+  for (std::size_t w = 0; w < set.words().size(); ++w)
+    for (std::uint64_t rest = from.u64(field); rest != 0; rest &= rest - 1) {
+      const std::size_t member = 64 * w + static_cast<std::size_t>(std::countr_zero(rest));
+      if (member >= size) from.fail(field, "voxel " + std::to_string(member), "less than " + std::to_string(size));
+      set.set(member);
+    }
+  return set;
+}
+
+void write_voxels(ByteWriter& to, const VoxelBelief& voxels) {
+  write_set(to, voxels.possibly_occupied());
+  to.u64(voxels.contacts().size());
+  for (const ContactRecord& record : voxels.contacts()) write_set(to, record.candidates);
+}
+
+VoxelBelief read_voxels(ByteReader& from, const std::shared_ptr<const VoxelModel>& model) {
+  const std::size_t size = model->grid.size();
+  Bitset possibly_occupied = read_set(from, size, "possibly occupied voxels");
+  if (possibly_occupied.none()) from.fail("possibly occupied voxels", "none", "at least one");
+  std::vector<Bitset> candidates(from.count(8 * possibly_occupied.words().size(), "contacts"));
+  for (Bitset& set : candidates) set = read_set(from, size, "contact candidates");
+  return VoxelBelief::restored(model, std::move(possibly_occupied), std::move(candidates));
+}
+
+void write_cells(ByteWriter& to, const CellBelief& cells) {
+  to.u64(cells.cells().size());
+  for (const Cell& cell : cells.cells()) {
+    for (const double value : cell.centre) to.f64(value);
+    for (const std::uint8_t splits : cell.splits) to.u8(splits);
+  }
+}
+
+CellBelief read_cells(ByteReader& from, const Model& model) {
+  const scene::Prior& prior = model.task->scene().prior;
+  std::vector<Cell> cells(from.count(6 * (8 + 1), "cells"));
+  if (cells.empty()) from.fail("cells", "none", "at least one");
+  for (Cell& cell : cells) {
+    for (int d = 0; d < 6; ++d) {
+      cell.centre[d] = from.f64("cell centre");
+      if (!(std::abs(cell.centre[d] - prior.centre[d]) <= 0.5 * prior.width[d] + 1e-9))
+        from.fail("cell centre", std::to_string(cell.centre[d]), "a number inside the prior");
+    }
+    for (std::uint8_t& splits : cell.splits) {
+      splits = from.u8("cell splits");
+      if (splits > most_splits) from.fail("cell splits", std::to_string(splits), "at most " + std::to_string(most_splits));
+    }
+  }
+  return CellBelief::restored(*model.task, model.options.cells, std::move(cells));
+}
+
+void write_trace(ByteWriter& to, const Trace& trace) {
+  to.u64(trace.action_id);
+  to.u32(static_cast<std::uint32_t>(trace.kind));
+  to.u8(trace.contact ? 1 : 0);
+  to.u64(trace.outcome);
+  action::write_path(to, trace.path);
+}
+
+Trace read_trace(ByteReader& from, const Task& task) {
+  Trace trace;
+  trace.action_id = from.u64("action of an observation");
+  trace.kind = action::read_kind(from, "kind of an observation's action");
+  trace.contact = from.flag("contact of an observation");
+  trace.outcome = static_cast<std::size_t>(from.u64("outcome of an observation"));
+  trace.path = action::read_path(from, task.scene().robot->dof(), trace.contact ? 2 : 1, "path of an observation");
+  trace.bodies = BodyPath(task.bodies(), trace.path);
+  return trace;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> Belief::save() const {
+  ByteWriter to(seal);
+  to.u64(fingerprint(*model_));
+  action::write_joints(to, q_);
+  to.u8(static_cast<std::uint8_t>(health_));
+  to.u64(history_.size());
+  for (const Trace& trace : history_) write_trace(to, trace);
+  to.u8(cells_ ? 1 : 0);
+  if (cells_)
+    write_cells(to, *cells_);
+  else
+    write_voxels(to, *voxels_);
+  return to.sealed();
+}
+
+Belief Belief::restore(std::shared_ptr<const Model> model, const std::uint8_t* bytes, std::size_t size) {
+  ByteReader from(seal, "saved belief", bytes, size);
+  if (from.u64("fingerprint") != fingerprint(*model))
+    throw support::Error(support::Status::wrong_scenario,
+                         "saved belief: found one of another scenario, expected the same target, tool, prior, joints and belief options");
+  Belief belief(std::move(model));
+  const Task& task = belief.task();
+  belief.q_ = action::read_joints(from, task.scene().robot->dof(), "configuration");
+  belief.health_ = from.flag("health") ? Health::contradicted : Health::good;
+  const std::size_t observations = from.count(8 + 4 + 1 + 8 + 8, "observations");
+  for (std::size_t i = 0; i < observations; ++i) belief.history_.push_back(read_trace(from, task));
+  const bool in_pose_phase = from.flag("phase");
+  if (!in_pose_phase && belief.model_->options.kind == Kind::particles) from.fail("phase", "voxels", "poses, the belief being of particles");
+  if (in_pose_phase)
+    belief.cells_.emplace(read_cells(from, belief.model()));
+  else
+    belief.voxels_.emplace(read_voxels(from, belief.model_->voxels));
+  from.finish();
+  return belief;
+}
+
+}  // namespace tactus::belief

@@ -101,6 +101,16 @@ bool Belief::is_goal() const {
                      [&](const Cell& cell) { return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre)); });
 }
 
+std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) const {
+  std::vector<Pose> poses;
+  const double radius = model_->voxels->grid.half_diagonal();
+  for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count; ++i) {
+    const Pose pose = task().scene().prior.sample(rng);
+    if (std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return may_reproduce(task(), trace, pose, radius); })) poses.push_back(pose);
+  }
+  return poses;
+}
+
 std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng) const {
   const std::vector<Cell>& cells = cells_->cells();
   std::vector<double> running_sum;

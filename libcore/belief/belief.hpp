@@ -11,6 +11,8 @@
 namespace tactus::belief {
 
 enum class Kind : std::int32_t { hierarchical = 1, particles = 2 };
+/// How a planner weighs the outcomes of a motion on voxels: by the paper's equations, or by the share of feasible poses that would be first touched there.
+enum class Likelihood : std::int32_t { paper = 1, calibrated = 2 };
 enum class Phase : std::int32_t { voxels = 1, poses = 2 };
 enum class Health : std::int32_t { good = 0, contradicted = 1 };
 
@@ -19,6 +21,7 @@ struct Options {
   double voxel_size = 0.01;   ///< m
   std::size_t delta = 3000;   ///< voxels: with so many or fewer in PO, poses take over
   CellOptions cells;
+  Likelihood likelihood = Likelihood::calibrated;
   std::size_t particles = 200;  ///< poses drawn for planning
 };
 
@@ -69,9 +72,16 @@ class Belief {
   /// At the present configuration every surviving pose has the tool seated within tolerance.
   bool is_goal() const;
 
+  /// Whether the belief still holds this pose: in the voxel phase every voxel centre inside the target there is possibly occupied; in the pose phase a cell holds it.
+  /// To 1e-9 m and rad; angles modulo whole turns, and in every way in which roll, pitch and yaw describe the same rotation.
+  bool contains(const Pose& base_from_target) const;
+
   /// Up to `count` poses drawn uniformly from the cells that reproduce the whole history exactly (phase 2 only). Fewer, down to one, where they are hard to find;
   /// at worst a cell's centre.
   std::vector<Pose> draw(std::size_t count, support::Rng& rng) const;
+
+  /// Phase 1: up to `count` poses drawn from the prior that may have given the history if moved by no more than half a voxel's diagonal. Fewer, or none, where they are rare.
+  std::vector<Pose> draw_feasible(std::size_t count, support::Rng& rng) const;
 
   Summary summary() const;
 

@@ -40,9 +40,8 @@ bool contains(const Belief& belief, const Pose& base_from_target) {
     return covers(prior.centre, half, base_from_target) && !belief.voxels().excludes(base_from_target, 0.0);
   }
   const CellBelief& cells = belief.cells();
-  return std::any_of(cells.cells().begin(), cells.cells().end(), [&](const Cell& cell) {
-    return covers(cell.centre, cells.half_width(cell), base_from_target);
-  });
+  return std::any_of(cells.cells().begin(), cells.cells().end(),
+                     [&](const Cell& cell) { return covers(cell.centre, cells.half_width(cell), base_from_target); });
 }
 
 }  // namespace tactus::belief

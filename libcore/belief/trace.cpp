@@ -25,7 +25,7 @@ void check(const Task& task, const Observation& observation) {
 }
 
 double bound(const Task& task, const JointVector& a, const JointVector& b) {
-  return robot::motion_bound(*task.scene().robot, task.known_world().link_reach(), a, b);
+  return task.known_world().displacement(a, b);
 }
 
 JointVector between(const JointVector& from, const JointVector& to, double fraction) { return from + fraction * (to - from); }

@@ -8,7 +8,7 @@ namespace {
 
 using geometry::Sphere;
 
-constexpr std::size_t field_samples = 150'000;
+constexpr std::size_t field_samples = 60'000;
 
 struct Piece {
   Vector3 centre;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contact/body_path.hpp"
 
-#include <cmath>
-
 namespace tactus::contact {
 namespace {
 
@@ -13,12 +11,6 @@ bool moves(const robot::RobotModel& model, int link) {
   for (; link >= 0; link = model.links[link].parent)
     if (model.links[link].joint >= 0) return true;
   return false;
-}
-
-/// How far any point of the sphere moves between two poses of its frame.
-double sphere_motion(const geometry::Sphere& sphere, const Pose& from, const Pose& to) {
-  const double chord = 2.0 * std::sin(0.5 * geometry::angle_between(from, to));
-  return (to * sphere.centre - from * sphere.centre).norm() + chord * sphere.radius;
 }
 
 }  // namespace
@@ -48,7 +40,7 @@ BodyPath::BodyPath(const RobotBodies& bodies, const std::vector<robot::JointVect
   travelled_.assign(poses_.size(), 0.0);
   for (std::size_t i = bodies_; i < poses_.size(); ++i)
     travelled_[i] = travelled_[i - bodies_] +
-                    sphere_motion(bodies.body(i % bodies_).bounding_sphere(), poses_[i - bodies_], poses_[i]);
+                    geometry::largest_displacement(bodies.body(i % bodies_).tree().box(), poses_[i - bodies_], poses_[i]);
 }
 
 }  // namespace tactus::contact

@@ -14,6 +14,7 @@
 namespace tactus::contact {
 
 using geometry::Box;
+using geometry::Vector3;
 using robot::LinkPair;
 using robot::RobotModel;
 
@@ -215,5 +216,18 @@ const RobotModel& KnownWorld::model() const { return *impl_->model; }
 const std::vector<LinkPair>& KnownWorld::checked_pairs() const { return impl_->link_pairs; }
 
 const std::vector<double>& KnownWorld::link_reach() const { return impl_->reach; }
+
+double KnownWorld::displacement(const JointVector& from, const JointVector& to) const {
+  if ((to - from).cwiseAbs().maxCoeff() > 0.3) return robot::motion_bound(*impl_->model, impl_->reach, from, to);
+  std::vector<Pose> before, after;
+  robot::forward(*impl_->model, from, before);
+  robot::forward(*impl_->model, to, after);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < impl_->static_begin; ++i) {
+    const auto link = static_cast<std::size_t>(impl_->parts[i].link);
+    largest = std::max(largest, geometry::largest_displacement(impl_->parts[i].solid.box(), before[link], after[link]));
+  }
+  return largest;
+}
 
 }  // namespace tactus::contact

@@ -47,20 +47,6 @@ void build(fcl::BVHModel<fcl::OBBd>& model, const Mesh& mesh, const std::string&
   model.computeLocalAABB();
 }
 
-// Moeller and Trumbore's test of the ray from `origin`.
-bool ray_crosses(const Vector3& origin, const Vector3& direction, const Vector3& a, const Vector3& b,
-                 const Vector3& c) {
-  const Vector3 u = b - a, v = c - a, across = direction.cross(v);
-  const double determinant = u.dot(across);
-  if (determinant == 0.0) return false;
-  const Vector3 from_corner = origin - a;
-  const double s = from_corner.dot(across) / determinant;
-  if (s < 0.0 || s > 1.0) return false;
-  const Vector3 along = from_corner.cross(u);
-  const double t = direction.dot(along) / determinant;
-  return t >= 0.0 && s + t <= 1.0 && v.dot(along) / determinant > 0.0;
-}
-
 }  // namespace
 
 Solid::Solid(const Mesh& mesh, const std::string& name) {
@@ -71,34 +57,19 @@ Solid::Solid(const Mesh& mesh, const std::string& name) {
   auto tree = std::make_shared<Tree>();
   build(tree->model, merged, name);
   tree_ = std::move(tree);
-  for (Mesh& shell : geometry::shells(merged)) {
-    const bool closed = geometry::is_closed(shell);
-    const Box box = geometry::bounds(shell);
-    box_.add(box);
+  for (const Mesh& shell : geometry::shells(merged)) {
+    box_.add(geometry::bounds(shell));
     for (const Vector3& vertex : shell.vertices) reach_ = std::max(reach_, vertex.norm());
-    shells_.push_back({std::move(shell), box, closed});
+    shells_.push_back({geometry::TriangleTree(shell), shell.vertices.front()});
   }
-}
-
-bool Solid::holds(const Shell& shell, const Vector3& point) {
-  const Vector3 direction(0.5477225575051661, 0.3162277660168379,
-                          0.7745966692414834);  // along no edge that people draw
-  bool inside = false;
-  for (const auto& [a, b, c] : shell.mesh.triangles)
-    inside ^=
-        ray_crosses(point, direction, shell.mesh.vertices[static_cast<std::size_t>(a)],
-                    shell.mesh.vertices[static_cast<std::size_t>(b)], shell.mesh.vertices[static_cast<std::size_t>(c)]);
-  return inside;
 }
 
 // Only asked when no surfaces cross, so that one vertex speaks for its shell.
 bool Solid::holds_part_of(const Solid& other, const Pose& this_from_other) const {
   for (const Shell& inner : other.shells_) {
-    const Vector3 point = this_from_other * inner.mesh.vertices.front();
-    const double extent = inner.box.size().maxCoeff();
+    const Vector3 point = this_from_other * inner.vertex;
     for (const Shell& outer : shells_)
-      if (outer.closed && outer.box.contains(point) && extent <= outer.box.size().norm() && holds(outer, point))
-        return true;
+      if (inner.tree.box().size().maxCoeff() <= outer.tree.box().size().norm() && outer.tree.contains(point)) return true;
   }
   return false;
 }

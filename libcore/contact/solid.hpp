@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh.hpp"
+#include "geometry/triangle_tree.hpp"
 
 namespace tactus::contact {
 
@@ -29,12 +29,10 @@ class Solid {
  private:
   struct Tree;
   struct Shell {
-    geometry::Mesh mesh;
-    geometry::Box box;
-    bool closed = false;
+    geometry::TriangleTree tree;
+    geometry::Vector3 vertex;  ///< one of its own
   };
   bool holds_part_of(const Solid& other, const geometry::Pose& this_from_other) const;
-  static bool holds(const Shell& shell, const geometry::Vector3& point);
 
   std::shared_ptr<const Tree> tree_;
   std::vector<Shell> shells_;

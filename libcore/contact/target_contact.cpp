@@ -7,8 +7,8 @@ namespace tactus::contact {
 namespace {
 
 constexpr double field_spacing = 0.001;
-constexpr double field_border = 0.03;
-constexpr std::size_t field_samples = 1'500'000;
+constexpr double field_border = 0.01;
+constexpr std::size_t field_samples = 1'000'000;
 
 }  // namespace
 

@@ -111,6 +111,18 @@ Box bounds(const Mesh& mesh) {
   return box;
 }
 
+double largest_displacement(const Box& box, const Pose& from, const Pose& to) {
+  const Eigen::Matrix3d turn = to.linear() - from.linear();
+  const Vector3 centre = turn * box.centre() + (to.translation() - from.translation());
+  const Vector3 half = 0.5 * box.size();
+  double largest = 0.0;
+  for (int corner = 0; corner < 4; ++corner) {
+    const Vector3 offset = turn * Vector3(half.x(), corner & 1 ? half.y() : -half.y(), corner & 2 ? half.z() : -half.z());
+    largest = std::max({largest, (centre + offset).squaredNorm(), (centre - offset).squaredNorm()});
+  }
+  return std::sqrt(largest);
+}
+
 Sphere bounding_sphere(const Mesh& mesh) {
   Sphere sphere{bounds(mesh).centre(), 0.0};
   for (const Vector3& v : mesh.vertices) sphere.radius = std::max(sphere.radius, (v - sphere.centre).norm());

@@ -42,6 +42,8 @@ Mesh transformed(const Mesh& mesh, const Pose& pose);
 void append(Mesh& mesh, const Mesh& other);
 
 Box bounds(const Mesh& mesh);
+/// How far a point of a box in a moving frame is displaced at most between two poses of the frame: a rigid displacement is largest at a corner.
+double largest_displacement(const Box& box, const Pose& from, const Pose& to);
 Sphere bounding_sphere(const Mesh& mesh);    ///< about the centre of the bounding box
 double diameter(const Mesh& mesh);           ///< D_max of the paper: the greatest distance between two of its points
 double signed_volume(const Mesh& mesh);

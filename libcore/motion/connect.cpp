@@ -17,7 +17,7 @@ namespace {
 // hence the recursion.
 void append_densified(const KnownWorld& world, const JointVector& to, double step, JointPath& path) {
   const JointVector from = path.back();
-  const double bound = robot::motion_bound(world.model(), world.link_reach(), from, to);
+  const double bound = world.displacement(from, to);
   if (!(bound > step)) {
     path.push_back(to);
     return;

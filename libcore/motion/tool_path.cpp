@@ -39,7 +39,7 @@ class LineFollower {
       const double fraction = reached_ + increment_ >= 1.0 - 1e-9 ? 1.0 : reached_ + increment_;
       const std::optional<JointVector> next =
           robot::inverse(world_.model(), tool_link_, pose_at(fraction), extrapolated(fraction), follow);
-      const double bound = next ? robot::motion_bound(world_.model(), world_.link_reach(), path_.back(), *next) : 0.0;
+      const double bound = next ? world_.displacement(path_.back(), *next) : 0.0;
       if (!next || bound > step_ || (*next - path_.back()).cwiseAbs().maxCoeff() > largest_jump) {
         refine(bound);
         continue;

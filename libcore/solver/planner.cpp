@@ -16,7 +16,6 @@ using support::Error;
 using support::Status;
 
 constexpr std::size_t least_support = 8;       // poses below which a computed policy is not trusted
-constexpr double voxel_bit = 10.0;             // how much dearer a bit is on voxels than on poses
 constexpr std::array<std::pair<Solver, const char*>, 7> names{{{Solver::rtdp_bel, "rtdp-bel"},
                                                                 {Solver::rtdp_inad, "rtdp-inad"},
                                                                 {Solver::rtdp_ad, "rtdp-ad"},
@@ -126,7 +125,9 @@ std::optional<int> Planner::followed(const belief::Belief& belief) {
 void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   BeliefStatePtr start;
   if (belief.phase() == belief::Phase::voxels) {
-    start = std::make_shared<VoxelProblem>(model_, library_, voxel_bit * options_.cost_per_bit)->start(belief.configuration(), belief.voxels());
+    std::vector<geometry::Pose> feasible;
+    if (model_->options.likelihood == belief::Likelihood::calibrated) feasible = belief.draw_feasible(model_->options.particles, rng_);
+    start = std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)->start(belief.configuration(), belief.voxels());
   } else {
     start = std::make_shared<PoseProblem>(model_->task, library_, belief.draw(model_->options.particles, rng_), belief.summary().bits, options_.cost_per_bit)
                 ->start(belief.configuration());

@@ -60,10 +60,7 @@ class PoseState : public BeliefState {
   }
 
   BeliefStatePtr successor(const Choice& choice, const Outcome& outcome) const override {
-    Bitset left(members_.size());
-    members_.for_each([&](std::size_t pose) {
-      if (problem_->first_contact(choice.motion, pose) == outcome.waypoint) left.set(pose);
-    });
+    Bitset left = problem_->predictions_.subset(choice.motion, members_, outcome.waypoint);
     const auto& path = choice.motion->path;
     const bool contact = outcome.waypoint < path.size();
     return std::make_shared<PoseState>(problem_, contact ? path[outcome.waypoint - 1] : path.back(), std::move(left), false);
@@ -72,18 +69,16 @@ class PoseState : public BeliefState {
  private:
   /// h_ad is the mean cost of going straight to the seat; h_inad adds what the missing bits are worth.
   Values values(double direct, std::size_t count) const {
-    const double share = static_cast<double>(count) / static_cast<double>(problem_->poses_.size());
+    const double share = static_cast<double>(count) / static_cast<double>(problem_->predictions_.poses().size());
     const double bits = std::max(std::log2(static_cast<double>(count)), problem_->bits_ + std::log2(share));
     return {direct, direct + problem_->cost_per_bit_ * std::max(0.0, bits)};
   }
 
   Choice weigh(const MotionPtr& motion) const {
-    std::map<std::size_t, std::vector<std::size_t>> split;
-    members_.for_each([&](std::size_t pose) { split[problem_->first_contact(motion, pose)].push_back(pose); });
     const auto total = static_cast<double>(members_.count());
     const double lead = motion->anchored ? action::transit_cost(*problem_->task_, problem_->task_->base_from_tool(q_), motion->base_from_start) : 0.0;
     Choice choice{motion, {}};
-    for (const auto& [waypoint, group] : split) {
+    for (const auto& [waypoint, group] : problem_->predictions_.split(motion, members_)) {
       Outcome outcome;
       outcome.waypoint = waypoint;
       outcome.probability = static_cast<double>(group.size()) / total;
@@ -112,26 +107,23 @@ class PoseState : public BeliefState {
 
 PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library, std::vector<Pose> poses, double bits,
                          double cost_per_bit)
-    : task_(std::move(task)), library_(std::move(library)), poses_(std::move(poses)), bits_(bits), cost_per_bit_(cost_per_bit) {
-  for (const Pose& pose : poses_) seated_.push_back(task_->scene().seated(pose));
+    : task_(std::move(task)), library_(std::move(library)), predictions_(task_, std::move(poses)), bits_(bits), cost_per_bit_(cost_per_bit) {
+  for (const Pose& pose : predictions_.poses()) seated_.push_back(task_->scene().seated(pose));
 }
 
-BeliefStatePtr PoseProblem::start(const JointVector& q) { return std::make_shared<PoseState>(shared_from_this(), q, Bitset(poses_.size(), true), true); }
-
-std::size_t PoseProblem::first_contact(const MotionPtr& motion, std::size_t pose) {
-  auto [entry, is_new] = predictions_.try_emplace(motion.get());
-  if (is_new) {
-    entry->second.first_contact.assign(poses_.size(), -1);
-    kept_.push_back(motion);
+BeliefStatePtr PoseProblem::start(const JointVector& q) {
+  auto state = std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_.poses().size(), true), true);
+  std::vector<double> cost, gained;
+  for (const Choice& choice : state->choices()) {
+    cost.push_back(choice.expected_cost());
+    gained.push_back(choice.information());
   }
-  std::int32_t& stored = entry->second.first_contact[pose];
-  if (stored < 0)
-    stored = static_cast<std::int32_t>(task_->target_contact().first_contact(motion->bodies, poses_[pose]).value_or(motion->path.size()));
-  return static_cast<std::size_t>(stored);
+  cost_per_bit_ = greedy_cost_per_bit(cost, gained, cost_per_bit_);
+  return state;
 }
 
 bool PoseProblem::seated(const Motion& motion, std::size_t pose) const {
-  return task_->scene().is_seated(motion.bodies.base_from_body(motion.path.size() - 1, 0), poses_[pose]);
+  return task_->scene().is_seated(motion.bodies.base_from_body(motion.path.size() - 1, 0), predictions_.poses()[pose]);
 }
 
 const std::vector<MotionPtr>& PoseProblem::anchored(const JointVector& near) {
@@ -142,7 +134,7 @@ const std::vector<MotionPtr>& PoseProblem::anchored(const JointVector& near) {
 
 MotionPtr PoseProblem::insertion_at(std::size_t pose, const JointVector& near) {
   const auto [entry, is_new] = insertions_.try_emplace(pose, nullptr);
-  if (is_new) entry->second = action::insertion(*task_, poses_[pose], near);
+  if (is_new) entry->second = action::insertion(*task_, predictions_.poses()[pose], near);
   return entry->second;
 }
 
@@ -178,7 +170,7 @@ geometry::Box PoseProblem::region() const {
   geometry::Box box;
   const Pose search_from_base = task_->frame().base_from_search.inverse();
   const geometry::Box local = geometry::bounds(task_->scene().target.mesh);
-  for (const Pose& pose : poses_)
+  for (const Pose& pose : predictions_.poses())
     for (int corner = 0; corner < 8; ++corner) {
       const geometry::Vector3 p(corner & 1 ? local.high.x() : local.low.x(), corner & 2 ? local.high.y() : local.low.y(), corner & 4 ? local.high.z() : local.low.z());
       box.add(search_from_base * (pose * p));

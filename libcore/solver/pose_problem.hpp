@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "belief/belief.hpp"
+#include "solver/predictions.hpp"
 #include "solver/problem.hpp"
 
 namespace tactus::solver {
@@ -20,11 +21,6 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
 
  private:
   friend class PoseState;
-  struct Prediction {
-    std::vector<std::int32_t> first_contact;   ///< by pose; -1 not computed yet; the path's size: none
-  };
-
-  std::size_t first_contact(const action::MotionPtr& motion, std::size_t pose);
   bool seated(const action::Motion& motion, std::size_t pose) const;
   const std::vector<action::MotionPtr>& anchored(const robot::JointVector& near);
   action::MotionPtr insertion_at(std::size_t pose, const robot::JointVector& near);
@@ -34,15 +30,13 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
 
   std::shared_ptr<const action::Task> task_;
   std::shared_ptr<action::ActionLibrary> library_;
-  std::vector<geometry::Pose> poses_;
+  Predictions predictions_;
   std::vector<geometry::Pose> seated_;       ///< tool link, base frame, by pose
   double bits_;
   double cost_per_bit_;
   std::vector<action::MotionPtr> anchored_;
   bool anchored_made_ = false;
   std::unordered_map<std::size_t, action::MotionPtr> insertions_;
-  std::unordered_map<const action::Motion*, Prediction> predictions_;
-  std::vector<action::MotionPtr> kept_;      ///< motions whose predictions are stored, so that no address is used twice
 };
 
 }  // namespace tactus::solver

@@ -31,6 +31,9 @@ struct Choice {
   double information() const;            ///< expected bits by which the outcomes split the belief
 };
 
+/// What a bit is worth to h_inad: a half more than what the motion with the best rate of expected bits to expected cost pays for one, so that motion is worth making; at least `least`.
+double greedy_cost_per_bit(const std::vector<double>& expected_cost, const std::vector<double>& expected_bits, double least);
+
 /// A belief as the solver sees it, whichever representation is behind it. Immutable, but for what is computed on first use.
 class BeliefState {
  public:

@@ -37,6 +37,14 @@ double Choice::information() const {
   return bits;
 }
 
+double greedy_cost_per_bit(const std::vector<double>& expected_cost, const std::vector<double>& expected_bits, double least) {
+  constexpr double overestimate = 1.5;
+  double lowest = 1e300;
+  for (std::size_t i = 0; i < expected_cost.size(); ++i)
+    if (expected_bits[i] > 1e-9) lowest = std::min(lowest, expected_cost[i] / expected_bits[i]);
+  return lowest < 1e300 ? std::max(least, overestimate * lowest) : least;
+}
+
 Search::Search(BeliefStatePtr start_state, const SearchOptions& options) : options_(options) { intern(std::move(start_state)); }
 
 void Search::run(support::Deadline& deadline) {

@@ -24,6 +24,7 @@ namespace {
 constexpr double overlap_epsilon = 1.0;   // the paper's epsilon, in voxels
 constexpr double least_probability = 1e-6;
 constexpr int lines_per_side = 9;
+constexpr std::size_t least_poses = 10;   // below, the paper's likelihood answers
 
 /// How many voxels of a set lie in a box: sums over all boxes from the grid's corner.
 class BoxCounts {
@@ -95,12 +96,17 @@ std::vector<double> first_contact_probabilities(const std::vector<double>& likel
 /// A configuration, PO and C.
 class VoxelState : public BeliefState {
  public:
-  VoxelState(std::shared_ptr<VoxelProblem> problem, JointVector q, VoxelBelief voxels)
-      : problem_(std::move(problem)), q_(std::move(q)), voxels_(std::move(voxels)), count_(voxels_.possibly_occupied().count()) {}
+  VoxelState(std::shared_ptr<VoxelProblem> problem, JointVector q, VoxelBelief voxels, Bitset feasible)
+      : problem_(std::move(problem)),
+        q_(std::move(q)),
+        voxels_(std::move(voxels)),
+        feasible_(std::move(feasible)),
+        count_(voxels_.possibly_occupied().count()) {}
 
   support::Hash128 hash() const override {
     std::uint64_t salt = action::path_id({q_});
     for (const belief::ContactRecord& record : voxels_.contacts()) salt ^= record.candidates.hash(1).low;
+    salt ^= feasible_.hash(2).low;
     return voxels_.possibly_occupied().hash(salt);
   }
   const JointVector& configuration() const override { return q_; }
@@ -124,15 +130,16 @@ class VoxelState : public BeliefState {
     const Motion& motion = *choice.motion;
     const SweptVoxels& swept = problem_->swept(choice.motion);
     VoxelBelief next = voxels_;
+    Bitset feasible = problem_->predictions_.subset(choice.motion, feasible_, outcome.waypoint);
     if (outcome.waypoint == motion.path.size()) {
       next.remove_free(swept.voxels, swept.voxels.size());
-      return std::make_shared<VoxelState>(problem_, motion.path.back(), std::move(next));
+      return std::make_shared<VoxelState>(problem_, motion.path.back(), std::move(next), std::move(feasible));
     }
     const action::Task& task = *problem_->model_->task;
     next.remove_free(swept.voxels, swept.entered_by(outcome.waypoint - 1));
     const double step = motion.bodies.travelled(outcome.waypoint, 0) - motion.bodies.travelled(outcome.waypoint - 1, 0);
     next.add_contact(contact::contact_candidates(task.bodies(), motion.bodies, outcome.waypoint, grid(), step));
-    return std::make_shared<VoxelState>(problem_, motion.path[outcome.waypoint - 1], std::move(next));
+    return std::make_shared<VoxelState>(problem_, motion.path[outcome.waypoint - 1], std::move(next), std::move(feasible));
   }
 
  private:
@@ -169,7 +176,17 @@ class VoxelState : public BeliefState {
       likelihood[i] = contact_likelihood(entered, static_cast<double>(count_), voxels_.model().target_voxels, voxels_.model().diameter, evidence);
       removed[i] = total += entered;
     }
-    return choice_of(motion, first_contact_probabilities(likelihood), removed, entered_box, counts);
+    return choice_of(motion, calibrated() ? shares(motion) : first_contact_probabilities(likelihood), removed, entered_box, counts);
+  }
+
+  bool calibrated() const { return feasible_.count() >= least_poses; }
+
+  /// The calibrated likelihood: of the feasible poses, the share that is first touched at each waypoint, and last the share that is not.
+  std::vector<double> shares(const MotionPtr& motion) const {
+    std::vector<double> result(motion->path.size() + 1, 0.0);
+    const auto total = static_cast<double>(feasible_.count());
+    for (const auto& [waypoint, group] : problem_->predictions_.split(motion, feasible_)) result[waypoint] = static_cast<double>(group.size()) / total;
+    return result;
   }
 
   Choice choice_of(const MotionPtr& motion, const std::vector<double>& probability, const std::vector<double>& removed,
@@ -181,7 +198,9 @@ class VoxelState : public BeliefState {
     const auto delta = static_cast<double>(problem_->model_->options.delta);
     Choice choice{motion, {}};
     double kept = 0.0;
+    Box near;  // where the robot last entered PO: a contact is about there
     for (std::size_t i = 1; i <= waypoints; ++i) {
+      if (i < waypoints && !entered_box[i].empty()) near = entered_box[i];
       if (probability[i] < least_probability && i < waypoints) continue;
       Outcome outcome;
       outcome.waypoint = i;
@@ -189,7 +208,7 @@ class VoxelState : public BeliefState {
       kept += outcome.probability;
       outcome.cost = task.options().cost.action + lead + motion->cost_to[std::min(i, waypoints - 1)];
       double left = static_cast<double>(count_) - removed[std::min(i, waypoints) - 1];
-      if (i < waypoints) left = std::min(left, static_cast<double>(counts.in(entered_box[i].inflated(within))));
+      if (i < waypoints && !near.empty()) left = std::min(left, static_cast<double>(counts.in(near.inflated(within))));
       outcome.goal = left <= delta;
       const Vector3 tool = motion->bodies.base_from_body(std::min(i, waypoints - 1), 0).translation();
       const double away = i < waypoints ? 0.0 : std::max(0.0, grid().box().distance(tool) - problem_->tool_reach_);
@@ -207,15 +226,28 @@ class VoxelState : public BeliefState {
   std::shared_ptr<VoxelProblem> problem_;
   JointVector q_;
   VoxelBelief voxels_;
+  Bitset feasible_;    ///< of the problem's poses
   std::size_t count_;
 };
 
-VoxelProblem::VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library, double cost_per_bit)
-    : model_(std::move(model)), library_(std::move(library)), cost_per_bit_(cost_per_bit) {
+VoxelProblem::VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library, std::vector<Pose> poses, double cost_per_bit)
+    : model_(std::move(model)), library_(std::move(library)), predictions_(model_->task, std::move(poses)), least_cost_per_bit_(cost_per_bit), cost_per_bit_(cost_per_bit) {
   for (const Vector3& v : model_->task->scene().tool.vertices) tool_reach_ = std::max(tool_reach_, v.norm());
 }
 
-BeliefStatePtr VoxelProblem::start(const JointVector& q, const VoxelBelief& voxels) { return std::make_shared<VoxelState>(shared_from_this(), q, voxels); }
+BeliefStatePtr VoxelProblem::start(const JointVector& q, const VoxelBelief& voxels) {
+  auto state = std::make_shared<VoxelState>(shared_from_this(), q, voxels, Bitset(predictions_.poses().size(), true));
+  cost_per_bit_ = 1.0;
+  const double bits = state->heuristic()[1] - state->heuristic()[0];
+  std::vector<double> cost, gained;
+  for (const Choice& choice : state->choices()) {
+    cost.push_back(choice.expected_cost());
+    gained.push_back(bits);
+    for (const Outcome& outcome : choice.outcomes) gained.back() -= outcome.probability * (outcome.heuristic[1] - outcome.heuristic[0]);
+  }
+  cost_per_bit_ = greedy_cost_per_bit(cost, gained, least_cost_per_bit_);
+  return state;
+}
 
 const SweptVoxels& VoxelProblem::swept(const MotionPtr& motion) {
   const auto [entry, is_new] = swept_.try_emplace(motion.get());

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "belief/belief.hpp"
+#include "solver/predictions.hpp"
 #include "solver/problem.hpp"
 
 namespace tactus::solver {
@@ -22,7 +23,8 @@ std::vector<double> first_contact_probabilities(const std::vector<double>& conta
 /// What planning on voxels shares between its beliefs: the motions made for one planning call and the voxels each sweeps. One thread.
 class VoxelProblem : public std::enable_shared_from_this<VoxelProblem> {
  public:
-  VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library, double cost_per_bit);
+  /// `poses`: feasible poses of the target, for the calibrated likelihood; empty for the paper's. `cost_per_bit`: the least that a bit is worth to h_inad.
+  VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library, std::vector<geometry::Pose> poses, double cost_per_bit);
 
   BeliefStatePtr start(const robot::JointVector& q, const belief::VoxelBelief& voxels);
 
@@ -34,7 +36,9 @@ class VoxelProblem : public std::enable_shared_from_this<VoxelProblem> {
 
   std::shared_ptr<const belief::Model> model_;
   std::shared_ptr<action::ActionLibrary> library_;
-  double cost_per_bit_;
+  Predictions predictions_;
+  double least_cost_per_bit_;
+  double cost_per_bit_;       ///< of h_inad, from the greedy rate at the start
   double tool_reach_ = 0.0;   ///< m from the tool frame's origin to the tool's farthest vertex
   std::vector<action::MotionPtr> anchored_;
   bool anchored_made_ = false;

@@ -250,7 +250,7 @@ class TargetContactLaw : public testing::TestWithParam<int> {
 TEST_P(TargetContactLaw, FirstContactIsThatOfEveryPairOfTriangles) {
   int close_calls = 0, contacts = 0, cases = 0;
   const TargetContact& contact = scene().contact;
-  for (int m = 0; m < 40; ++m) {
+  for (int m = 0; m < 30; ++m) {
     const Motion motion(scene(), random_waypoints(rng));
     for (int k = 0; k < 4; ++k, ++cases) {
       const Pose pose = k < 2 ? pose_near_touching(scene(), motion, rng) : pose_anywhere(scene(), motion, rng);
@@ -345,6 +345,24 @@ TEST_P(TargetContactLaw, EveryPoseOfACellHasItsFirstContactInTheInterval) {
   }
 }
 
+/// As far away in any direction as the radius allows, the pose itself still belongs to the interval.
+TEST_P(TargetContactLaw, TheRadiusOfAnIntervalMayBeUsedUp) {
+  for (int m = 0; m < 25; ++m) {
+    const Motion motion(scene(), random_waypoints(rng));
+    const Pose pose = pose_near_touching(scene(), motion, rng);
+    const auto plain = reference::first_contact(motion.track, Placed(scene().target, pose), scene().margin);
+    const std::size_t first = plain.value_or(motion.path.size());
+    for (int k = 0; k < 40; ++k) {
+      const double radius = std::pow(10.0, rng.uniform(-3.5, -1.5));
+      Pose centre = pose;
+      centre.translation() += radius * random_direction(rng);
+      const ContactInterval interval = scene().contact.first_contact_interval(motion.path, centre, radius + 1e-9);
+      ASSERT_LE(interval.earliest, first);
+      ASSERT_GE(interval.latest, first);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, TargetContactLaw, testing::Range(0, 11),
                          [](const auto& scene) { return pairings()[static_cast<std::size_t>(scene.param)].name; });
 
@@ -359,13 +377,15 @@ TEST(TargetContact, APathOfOneWaypointHasNoContact) {
 }
 
 TEST(TargetContact, AToolInsideAClosedBoxTouchesItAndInsideAnOpenOneDoesNot) {
-  const Shape tool = box(0.01, 0.01, 0.01);
   JointVector q = JointVector::Zero(5);
-  for (const bool open : {false, true}) {
-    const Scene scene(tool, open ? open_box(0.05, 0.05, 0.05) : box(0.05, 0.05, 0.05), 1e-5);
-    const Motion motion(scene, {q, q});
-    const Pose pose(Eigen::Translation3d(motion.path.base_from_body(0, 0).translation()));
-    EXPECT_EQ(scene.contact.first_contact(motion.path, pose).has_value(), !open);
+  for (const double size : {0.0004, 0.01}) {
+    const double room = 3.0 * size;
+    for (const bool open : {false, true}) {
+      const Scene scene(box(size, size, size), open ? open_box(room, room, room) : box(room, room, room), 1e-5);
+      const BodyPath path(scene.contact.bodies(), {q, q});
+      const Pose pose(Eigen::Translation3d(path.base_from_body(0, 0).translation()));
+      EXPECT_EQ(scene.contact.first_contact(path, pose).has_value(), !open) << size;
+    }
   }
 }
 

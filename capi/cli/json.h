@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef TACTUS_CLI_JSON_H
+#define TACTUS_CLI_JSON_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* The pieces of JSON that the command writes. A number that is not finite becomes null. */
+void json_text(FILE* out, const char* text);
+void json_bool(FILE* out, bool value);
+void json_number(FILE* out, double value, int digits);
+void json_numbers(FILE* out, const double* values, size_t count, int digits);
+
+/* `, "key": ` and the value. */
+void json_bool_field(FILE* out, const char* key, bool value);
+void json_number_field(FILE* out, const char* key, double value, int digits);
+void json_numbers_field(FILE* out, const char* key, const double* values, size_t count, int digits);
+
+enum { json_full = 9, json_short = 5 }; /* significant digits: of results; of what is drawn */
+
+#endif

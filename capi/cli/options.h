@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef TACTUS_CLI_OPTIONS_H
+#define TACTUS_CLI_OPTIONS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What `tactus run` was asked for. Strings are those of the command line; NULL and 0 where an option was not given. */
+typedef struct {
+  const char* scenario;
+  const char* solver;
+  const char* belief;
+  const char* json;
+  const char* record;
+  int trials;
+  uint64_t seed;
+  double budget_seconds;
+  uint64_t budget_expansions;
+  bool has_true_pose;
+  double true_pose[6]; /* x y z roll pitch yaw */
+} run_options;
+
+extern const char* const usage;
+
+/* Reads what follows `tactus run`. On a mistake says what is wrong on stderr and returns false. */
+bool parse_run_options(int argc, char** argv, run_options* options);
+
+#endif

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "result.h"
+
+static const double degrees = 57.29577951308232;
+
+void print_table(FILE* out, const run_result* run) {
+  fprintf(out, "%s, %s, %s\n\n", run->scenario, run->solver, run->belief);
+  fprintf(out, "%8s  %-8s  %-5s  %7s  %8s  %8s  %7s  %8s  %5s  %10s  %8s  %8s  %s\n", "seed", "inserted", "truth",
+          "cost m", "travel m", "turn rad", "actions", "contacts", "plans", "planning s", "error mm", "error deg",
+          "ended");
+  for (int i = 0; i < run->count; ++i) {
+    const trial_result* t = &run->trials[i];
+    fprintf(out, "%8" PRIu64 "  %-8s  %-5s  %7.3f  %8.3f  %8.3f  %7d  %8d  %5" PRIu64 "  %10.2f  %8.2f  %9.2f  %s\n",
+            t->seed, t->inserted ? "yes" : "no", t->truth_kept ? "kept" : "lost", t->cost_m, t->travel_m,
+            t->rotation_rad, t->actions, t->contacts, t->planner_calls, t->planning_s, 1000.0 * t->position_error_m,
+            degrees * t->angle_error_rad, t->ended);
+  }
+  const run_summary mean = summarise(run);
+  fprintf(out, "\ninserted %d of %d, true pose kept in %d of %d\n", mean.inserted, run->count, mean.truth_kept,
+          run->count);
+  fprintf(out,
+          "on average: cost %.3f m, travel %.3f m, %.1f actions, %.1f contacts, %.2f s of planning in %.1f calls\n",
+          mean.cost_m, mean.travel_m, mean.actions, mean.contacts, mean.planning_s, mean.planner_calls);
+}

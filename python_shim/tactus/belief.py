@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The robot's configuration, and what is known of the target's pose."""
+
+import ctypes
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import library
+from .library import BeliefHandle, Object, call, pointer, rows, struct, value, vector
+
+KINDS = {"hierarchical": 1, "particles": 2}
+PHASES = {1: "voxels", 2: "poses"}
+
+
+@dataclass(frozen=True)
+class Summary:
+    """A belief in numbers; six numbers of a pose are x y z (m) roll pitch yaw (rad)."""
+
+    phase: str              # "voxels" or "poses"
+    contradicted: bool      # an observation was impossible by all that was known, and was left out
+    observations: int
+    contacts: int
+    possibly_occupied: int  # voxels; 0 in the pose phase
+    volume: float           # of these voxels, m^3
+    cells: int              # of poses; 0 in the voxel phase
+    bits: float             # log2 of how many task tolerances the belief spans
+    mean: np.ndarray        # of the target's pose (6)
+    extent: np.ndarray      # full widths (6)
+    covariance: np.ndarray  # (6 x 6)
+
+
+class Belief(Object):
+    """What is known so far. One thread at a time."""
+
+    _destroy = "tactus_belief_destroy"
+
+    def __init__(self, scenario, q=None, kind=None):
+        """The target anywhere in the prior, the robot at ``q`` (dof; the scenario's start). ``kind``: "hierarchical" or "particles" (the scenario's).
+
+        Raises `InvalidArgument`, `TaskImpossible` for a configuration that is not free."""
+        options = struct(library.BeliefOptions, "tactus_belief_options_init")
+        call("tactus_scenario_belief_options", scenario.handle, ctypes.byref(options))
+        if kind is not None:
+            options.kind = KINDS.get(kind, 0)
+        joints = scenario.start if q is None else vector(q, scenario.dof, "q")
+        super().__init__(self._made_by("tactus_belief_create", BeliefHandle, scenario.handle, ctypes.byref(options),
+                                       pointer(joints)))
+        self._dof = scenario.dof
+
+    @classmethod
+    def _of(cls, handle, dof):
+        belief = cls.__new__(cls)
+        Object.__init__(belief, handle)
+        belief._dof = dof
+        return belief
+
+    def clone(self):
+        """An independent copy."""
+        return self._of(self._made_by("tactus_belief_clone", BeliefHandle, self.handle), self._dof)
+
+    def step(self, action, observation):
+        """Takes in what the robot reported after it executed ``action``.
+
+        Raises `StopOffPath`, `InvalidArgument`, `WrongScenario`; then nothing has changed."""
+        call("tactus_belief_step", self.handle, action.handle, ctypes.byref(observation.as_struct()))
+
+    @property
+    def configuration(self):
+        """The robot's (dof), rad or m. Set it after a jog."""
+        return rows("tactus_belief_configuration", self.handle)
+
+    @configuration.setter
+    def configuration(self, q):
+        call("tactus_belief_set_configuration", self.handle, pointer(vector(q, self._dof, "q")))
+
+    @property
+    def summary(self):
+        s = struct(library.SummaryStruct, "tactus_summary_init")
+        call("tactus_belief_summary", self.handle, ctypes.byref(s))
+        return Summary(PHASES[s.phase], s.health != 0, s.observations, s.contacts, s.possibly_occupied, s.volume,
+                       s.cells, s.bits, np.array(s.mean), np.array(s.extent), np.array(s.covariance).reshape(6, 6))
+
+    @property
+    def voxels(self):
+        """Centres of the voxels that the target may occupy (n x 3), base frame, m; none in the pose phase."""
+        return rows("tactus_belief_voxels", self.handle, width=3)
+
+    @property
+    def poses(self):
+        """Centres of the cells of poses that the target may have (n x 7); none in the voxel phase."""
+        return rows("tactus_belief_poses", self.handle, width=7)
+
+    @property
+    def is_goal(self):
+        """Whether the tool is seated now, for every pose that the target may still have."""
+        return bool(value("tactus_belief_is_goal", ctypes.c_int32, self.handle))
+
+    def contains(self, pose):
+        """Whether the target may have this pose (7), as far as is known."""
+        return bool(value("tactus_belief_contains", ctypes.c_int32, self.handle, pointer(vector(pose, 7, "pose"))))
+
+    def save(self):
+        """The whole belief as bytes."""
+        return rows("tactus_belief_save", self.handle, dtype=np.uint8).tobytes()
+
+    @classmethod
+    def restore(cls, scenario, data):
+        """The belief that was saved, in the same scenario. Raises `BadInput`, `WrongScenario`."""
+        array = np.frombuffer(bytes(data) or b"\0", np.uint8)
+        handle = cls._made_by("tactus_belief_restore", BeliefHandle, scenario.handle, pointer(array), len(data))
+        return cls._of(handle, scenario.dof)

@@ -1,0 +1,304 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The shared library: where it is, its structs, and the type of every function in one table."""
+
+import ctypes
+import ctypes.util
+import os
+import pathlib
+from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
+
+import numpy as np
+
+from . import errors
+
+
+class ScenarioHandle(ctypes.Structure):
+    """An opaque handle; so are the four below."""
+
+
+class BeliefHandle(ctypes.Structure):
+    pass
+
+
+class PlannerHandle(ctypes.Structure):
+    pass
+
+
+class ActionHandle(ctypes.Structure):
+    pass
+
+
+class WorldHandle(ctypes.Structure):
+    pass
+
+
+class CostsStruct(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("metre", c_double), ("radian", c_double),
+                ("action", c_double)]
+
+
+class LimitsStruct(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("actions", c_int32), ("travel", c_double), ("seconds", c_double)]
+
+
+class ObservationStruct(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("contact", c_int32), ("joint_count", c_uint64),
+                ("joints", POINTER(c_double))]
+
+
+class ActionProperties(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("id", c_uint64), ("waypoints", c_uint64),
+                ("length", c_double), ("duration", c_double), ("full_cost", c_double), ("expected_cost", c_double),
+                ("contact_probability", c_double)]
+
+
+class BeliefOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32)]
+
+
+class SummaryStruct(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("phase", c_int32), ("health", c_int32), ("reserved", c_uint32),
+                ("observations", c_uint64), ("contacts", c_uint64), ("possibly_occupied", c_uint64),
+                ("volume", c_double), ("cells", c_uint64), ("bits", c_double), ("mean", c_double * 6),
+                ("extent", c_double * 6), ("covariance", c_double * 36)]
+
+
+class PlannerOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("solver", c_int32), ("budget_seconds", c_double),
+                ("budget_expansions", c_uint64), ("epsilon", c_double), ("horizon", c_int64), ("seed", c_uint64)]
+
+
+class StatisticsStruct(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("from_policy", c_int32), ("expansions", c_uint64), ("seconds", c_double),
+                ("lower_bound", c_double), ("value", c_double), ("total_calls", c_uint64),
+                ("total_expansions", c_uint64), ("total_seconds", c_double)]
+
+
+class WorldOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("fineness", c_int32)]
+
+
+LOG_CALLBACK = ctypes.CFUNCTYPE(None, c_int32, c_char_p, c_void_p)
+
+_scenario, _belief, _planner = POINTER(ScenarioHandle), POINTER(BeliefHandle), POINTER(PlannerHandle)
+_action, _world = POINTER(ActionHandle), POINTER(WorldHandle)
+_doubles, _bytes, _size, _flag = POINTER(c_double), POINTER(c_uint8), POINTER(c_size_t), POINTER(c_int32)
+_text = POINTER(c_char_p)
+
+# Functions that return a status: name -> types of the arguments.
+CHECKED = {
+    "tactus_set_log_callback": [LOG_CALLBACK, c_void_p],
+    "tactus_scenario_load": [c_char_p, POINTER(_scenario)],
+    "tactus_scenario_parse": [c_char_p, c_char_p, POINTER(_scenario)],
+    "tactus_scenario_check": [c_char_p, c_void_p, c_size_t, _size],
+    "tactus_scenario_name": [_scenario, _text],
+    "tactus_scenario_dof": [_scenario, _size],
+    "tactus_scenario_joint_name": [_scenario, c_size_t, _text],
+    "tactus_scenario_joint_limits": [_scenario, c_size_t, _doubles, _doubles, _doubles],
+    "tactus_scenario_start": [_scenario, _doubles, c_size_t, _size],
+    "tactus_costs_init": [POINTER(CostsStruct), c_size_t],
+    "tactus_limits_init": [POINTER(LimitsStruct), c_size_t],
+    "tactus_scenario_costs": [_scenario, POINTER(CostsStruct)],
+    "tactus_scenario_limits": [_scenario, POINTER(LimitsStruct)],
+    "tactus_scenario_sample_pose": [_scenario, c_uint64, _doubles],
+    "tactus_pose_from_rpy": [_doubles, _doubles],
+    "tactus_scenario_body_count": [_scenario, _size],
+    "tactus_scenario_body_name": [_scenario, c_size_t, _text],
+    "tactus_scenario_body_kind": [_scenario, c_size_t, _flag],
+    "tactus_scenario_body_vertices": [_scenario, c_size_t, _doubles, c_size_t, _size],
+    "tactus_scenario_body_triangles": [_scenario, c_size_t, POINTER(c_int32), c_size_t, _size],
+    "tactus_scenario_body_poses": [_scenario, _doubles, _doubles, _doubles, c_size_t, _size],
+    "tactus_scenario_belief_options": [_scenario, POINTER(BeliefOptions)],
+    "tactus_scenario_planner_options": [_scenario, POINTER(PlannerOptions)],
+    "tactus_observation_init": [POINTER(ObservationStruct), c_size_t],
+    "tactus_action_properties_init": [POINTER(ActionProperties), c_size_t],
+    "tactus_action_info": [_action, POINTER(ActionProperties)],
+    "tactus_action_waypoints": [_action, _doubles, c_size_t, _size],
+    "tactus_action_times": [_action, _doubles, c_size_t, _size],
+    "tactus_action_retreat": [_action, POINTER(ObservationStruct), _size],
+    "tactus_action_save": [_action, _bytes, c_size_t, _size],
+    "tactus_action_restore": [_scenario, _bytes, c_size_t, POINTER(_action)],
+    "tactus_belief_options_init": [POINTER(BeliefOptions), c_size_t],
+    "tactus_belief_create": [_scenario, POINTER(BeliefOptions), _doubles, POINTER(_belief)],
+    "tactus_belief_clone": [_belief, POINTER(_belief)],
+    "tactus_belief_step": [_belief, _action, POINTER(ObservationStruct)],
+    "tactus_belief_set_configuration": [_belief, _doubles],
+    "tactus_belief_configuration": [_belief, _doubles, c_size_t, _size],
+    "tactus_summary_init": [POINTER(SummaryStruct), c_size_t],
+    "tactus_belief_summary": [_belief, POINTER(SummaryStruct)],
+    "tactus_belief_voxels": [_belief, _doubles, c_size_t, _size],
+    "tactus_belief_poses": [_belief, _doubles, c_size_t, _size],
+    "tactus_belief_is_goal": [_belief, _flag],
+    "tactus_belief_contains": [_belief, _doubles, _flag],
+    "tactus_belief_save": [_belief, _bytes, c_size_t, _size],
+    "tactus_belief_restore": [_scenario, _bytes, c_size_t, POINTER(_belief)],
+    "tactus_solver_from_name": [c_char_p, _flag],
+    "tactus_planner_options_init": [POINTER(PlannerOptions), c_size_t],
+    "tactus_planner_create": [_scenario, POINTER(PlannerOptions), POINTER(_planner)],
+    "tactus_planner_query_action": [_planner, _belief, POINTER(_action)],
+    "tactus_planner_cancel": [_planner],
+    "tactus_statistics_init": [POINTER(StatisticsStruct), c_size_t],
+    "tactus_planner_statistics": [_planner, POINTER(StatisticsStruct)],
+    "tactus_world_options_init": [POINTER(WorldOptions), c_size_t],
+    "tactus_world_create": [_scenario, _doubles, POINTER(WorldOptions), POINTER(_world)],
+    "tactus_world_execute": [_world, _action, POINTER(ObservationStruct)],
+    "tactus_world_inserted": [_world, _flag],
+    "tactus_world_travelled": [_world, _doubles, _doubles],
+    "tactus_world_true_pose": [_world, _doubles],
+}
+
+# The others: name -> (type of the result, types of the arguments).
+PLAIN = {
+    "tactus_version": (c_int32, []),
+    "tactus_version_string": (c_char_p, []),
+    "tactus_status_name": (c_char_p, [c_int32]),
+    "tactus_last_error": (c_char_p, []),
+    "tactus_action_kind_name": (c_char_p, [c_int32]),
+    "tactus_solver_name": (c_char_p, [c_int32]),
+    "tactus_scenario_destroy": (None, [_scenario]),
+    "tactus_belief_destroy": (None, [_belief]),
+    "tactus_planner_destroy": (None, [_planner]),
+    "tactus_action_destroy": (None, [_action]),
+    "tactus_world_destroy": (None, [_world]),
+}
+
+
+# --- loading
+
+def _candidates():
+    """Where the library may be, the likeliest first."""
+    if path := os.environ.get("TACTUS_LIBRARY"):
+        return [path]
+    package = pathlib.Path(__file__).resolve().parent
+    paths = [package / "libtactus.so", package.parents[1] / "build" / "release" / "lib" / "libtactus.so"]
+    return [str(path) for path in paths if path.exists()] + [ctypes.util.find_library("tactus") or "libtactus.so.0"]
+
+
+def _load():
+    """The library with every function typed. Raises ImportError with all that was tried."""
+    tried = []
+    for path in _candidates():
+        try:
+            library = ctypes.CDLL(path)
+            break
+        except OSError as error:
+            tried.append(f"  {path}: {error}")
+    else:
+        raise ImportError("libtactus.so was not found; set TACTUS_LIBRARY to its path. Tried:\n" + "\n".join(tried))
+    for name, argtypes in CHECKED.items():
+        function = getattr(library, name)
+        function.restype, function.argtypes = c_int32, argtypes
+    for name, (restype, argtypes) in PLAIN.items():
+        function = getattr(library, name)
+        function.restype, function.argtypes = restype, argtypes
+    return library
+
+
+lib = _load()
+
+
+# --- calling
+
+def status_of(name, *arguments):
+    """Calls ``name`` and returns its status, below 100. Raises for an error."""
+    status = getattr(lib, name)(*arguments)
+    if status >= 100:
+        raise errors.exception_for(status, lib.tactus_status_name(status).decode(), lib.tactus_last_error().decode())
+    return status
+
+
+def call(name, *arguments):
+    """The same where the status says nothing more."""
+    status_of(name, *arguments)
+
+
+def value(name, kind, *arguments):
+    """The one value that ``name`` writes to its last argument."""
+    out = kind()
+    call(name, *arguments, ctypes.byref(out))
+    return out.value
+
+
+def struct(kind, name):
+    """A struct made ready by its ``_init`` function ``name``."""
+    made = kind()
+    call(name, ctypes.byref(made), ctypes.sizeof(made))
+    return made
+
+
+def rows(name, *arguments, width=None, dtype=np.float64):
+    """The array that ``name`` gives out: (count x width), or (count) without a width."""
+    count = c_size_t()
+    call(name, *arguments, None, 0, ctypes.byref(count))
+    array = np.empty(count.value if width is None else (count.value, width), dtype)
+    call(name, *arguments, pointer(array), count.value, ctypes.byref(count))
+    return array
+
+
+def pointer(array):
+    """The address of a contiguous array's values."""
+    return array.ctypes.data_as(POINTER(np.ctypeslib.as_ctypes_type(array.dtype)))
+
+
+def vector(values, size, argument):
+    """``values`` as a contiguous array of ``size`` doubles."""
+    array = np.array(values, np.float64).ravel()
+    if array.size != size:
+        raise errors.exception_for(100, "TACTUS_INVALID_ARGUMENT",
+                                   f"{argument}: found {array.size} numbers, expected {size}")
+    return array
+
+
+class Object:
+    """Owns a handle. ``close`` (or the end of a ``with`` block) gives it back; an object used after that raises."""
+
+    _destroy = None  # the function that destroys the handle
+
+    def __init__(self, handle):
+        self._handle = handle
+
+    @classmethod
+    def _made_by(cls, name, handle_type, *arguments):
+        handle = POINTER(handle_type)()
+        call(name, *arguments, ctypes.byref(handle))
+        return handle
+
+    @property
+    def handle(self):
+        if self._handle is None:
+            raise ValueError(f"this {type(self).__name__} is closed")
+        return self._handle
+
+    def close(self):
+        handle, self._handle = getattr(self, "_handle", None), None
+        if handle is not None:
+            getattr(lib, self._destroy)(handle)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __del__(self):
+        if lib is not None:  # the interpreter may be going down
+            self.close()
+
+
+# --- the library itself
+
+_log_callback = LOG_CALLBACK()  # kept alive while it is set
+
+
+def set_log(function):
+    """Sends the library's log to ``function(level, message)``; level 0 is debug, 3 an error. None: nowhere."""
+    global _log_callback
+    callback = LOG_CALLBACK() if function is None else LOG_CALLBACK(
+        lambda level, message, _: function(level, message.decode(errors="replace")))
+    call("tactus_set_log_callback", callback, None)
+    _log_callback = callback
+
+
+def version():
+    """The version of the library that is loaded, "0.1.0"."""
+    return lib.tactus_version_string().decode()

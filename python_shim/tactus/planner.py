@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Given a belief, the next action, within a budget."""
+
+import ctypes
+import math
+from dataclasses import dataclass
+
+from . import errors, library
+from .action import Action
+from .library import ActionHandle, Object, PlannerHandle, call, status_of, struct, value
+
+SOLVERS = ("rtdp-bel", "rtdp-inad", "rtdp-ad", "brtdp-bel", "tbl", "frontier", "rate")
+
+REASONS = {
+    errors.OK: None,
+    errors.GOAL_REACHED: "goal reached",
+    errors.NO_INFORMATIVE_ACTION: "no informative action",
+    errors.CANCELLED: "cancelled",
+}
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """What the last query took, and (total) all of them."""
+
+    from_policy: bool     # the action was computed by an earlier query
+    expansions: int
+    seconds: float
+    lower_bound: float    # admissible value at the belief, in units of cost
+    value: float          # inadmissible value at the belief, in units of cost
+    total_calls: int      # queries that planned
+    total_expansions: int
+    total_seconds: float
+
+
+class Planner(Object):
+    """Remembers the policy it computed, and follows it while the observations are the predicted ones. One thread at a time."""
+
+    _destroy = "tactus_planner_destroy"
+
+    def __init__(self, scenario, *, solver=None, seconds=None, expansions=None, epsilon=None, horizon=None, seed=None):
+        """What is not given is as the scenario says.
+
+        A query ends when the budget in ``seconds`` or the one in ``expansions`` is spent; with one of them given, the other is without
+        limit. Expansions alone, and the same ``seed``, give the same actions on every machine. Raises `InvalidArgument`."""
+        options = struct(library.PlannerOptions, "tactus_planner_options_init")
+        call("tactus_scenario_planner_options", scenario.handle, ctypes.byref(options))
+        if solver is not None:
+            options.solver = value("tactus_solver_from_name", ctypes.c_int32, solver.encode())
+        if seconds is not None or expansions is not None:
+            options.budget_seconds = math.inf if seconds is None else seconds
+            options.budget_expansions = 0 if expansions is None else expansions
+        for name, given in (("epsilon", epsilon), ("horizon", horizon), ("seed", seed)):
+            if given is not None:
+                setattr(options, name, given)
+        super().__init__(self._made_by("tactus_planner_create", PlannerHandle, scenario.handle, ctypes.byref(options)))
+        self._dof = scenario.dof
+        self.reason = None
+
+    def query(self, belief):
+        """The next action; None when there is none, and then ``reason`` says why: "goal reached", "no informative action" or "cancelled"."""
+        handle = ctypes.POINTER(ActionHandle)()
+        self.reason = REASONS[status_of("tactus_planner_query_action", self.handle, belief.handle, ctypes.byref(handle))]
+        return Action(handle, self._dof) if handle else None
+
+    def cancel(self):
+        """The query that another thread has running returns soon with what it has."""
+        call("tactus_planner_cancel", self.handle)
+
+    @property
+    def statistics(self):
+        s = struct(library.StatisticsStruct, "tactus_statistics_init")
+        call("tactus_planner_statistics", self.handle, ctypes.byref(s))
+        return Statistics(s.from_policy != 0, s.expansions, s.seconds, s.lower_bound, s.value, s.total_calls,
+                          s.total_expansions, s.total_seconds)

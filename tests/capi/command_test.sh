@@ -1,0 +1,36 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# command_test.sh TACTUS SOURCE_DIR: usage errors, versions and checks of the command. Runs are tested from Python.
+set -u
+tactus=$1
+shelf=$2/examples/scenarios/shelf_3d.yaml
+failures=0
+
+# expect STATUS WORD ARGUMENTS...: the command ends with this status and says the word.
+expect() {
+  status=$1 word=$2
+  shift 2
+  said=$("$tactus" "$@" 2>&1)
+  got=$?
+  if [ "$got" -ne "$status" ] || ! printf '%s' "$said" | grep -q -e "$word"; then
+    echo "tactus $*: status $got, expected $status and '$word' in: $said"
+    failures=$((failures + 1))
+  fi
+}
+
+expect 0 'tactus [0-9]' --version
+expect 0 'usage' --help
+expect 2 'usage'
+expect 2 'usage' dance
+expect 2 'SCENARIO' run
+expect 2 'unknown option' run x.yaml --dance 3
+expect 2 'a value' run x.yaml --seed
+expect 2 'a whole number' run x.yaml --seed -3
+expect 2 'a number from 1' run x.yaml --trials 0
+expect 2 'greater than 0' run x.yaml --budget-seconds nan
+expect 2 'six numbers' run x.yaml --true-pose 1,2,3
+expect 2 'hierarchical or particles' run x.yaml --belief firm
+expect 2 '/nowhere.yaml' run /nowhere.yaml
+expect 2 '/nowhere.yaml' check /nowhere.yaml
+expect 0 'nothing wrong' check "$shelf"
+exit "$failures"

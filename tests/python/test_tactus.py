@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package, the examples and the command: the same loop, the same numbers."""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ.get("TACTUS_BUILD", ROOT / "build" / "release"))
+LIBRARY = BUILD / "lib" / "libtactus.so"
+SHELF = ROOT / "examples" / "scenarios" / "shelf_3d.yaml"
+SEED, EXPANSIONS = 1, 10
+
+if not LIBRARY.exists():
+    pytest.skip(f"{LIBRARY} is not built", allow_module_level=True)
+os.environ.setdefault("TACTUS_LIBRARY", str(LIBRARY))
+sys.path.insert(0, str(ROOT / "python_shim"))
+import tactus  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def scenario():
+    with tactus.Scenario.load(SHELF) as loaded:
+        yield loaded
+
+
+@pytest.fixture(scope="module")
+def action(scenario):
+    return tactus.Planner(scenario, expansions=EXPANSIONS).query(tactus.Belief(scenario))
+
+
+# --- the package
+
+def test_every_exported_function_is_typed_and_no_other():
+    from tactus import library
+    exported = (ROOT / "tests" / "abi" / "symbols.txt").read_text().split()
+    assert sorted([*library.CHECKED, *library.PLAIN]) == exported
+
+
+def test_scenario_says_what_it_is(scenario):
+    assert scenario.name == "shelf_3d"
+    assert scenario.dof == len(scenario.joint_names) == 6
+    assert scenario.joint_limits.shape == (6, 3)
+    assert scenario.start.shape == (6,)
+    assert scenario.costs == {"metre": 1.0, "radian": 0.05, "action": 0.005}
+    assert [body.kind for body in scenario.bodies].count("target") == 1
+    poses = scenario.body_poses(scenario.start, scenario.sample_pose(3))
+    np.testing.assert_allclose(poses[-1], scenario.sample_pose(3), atol=1e-12)
+
+
+def test_pose_from_rpy():
+    np.testing.assert_allclose(tactus.pose_from_rpy(1, 2, 3, 0, 0, np.pi), [1, 2, 3, 0, 0, 1, 0], atol=1e-12)
+
+
+def test_errors_are_exceptions_that_name_the_argument(scenario, action):
+    with pytest.raises(tactus.BadInput, match="nowhere.yaml"):
+        tactus.Scenario.load("/nowhere.yaml")
+    with pytest.raises(tactus.InvalidArgument, match="solver|name"):
+        tactus.Planner(scenario, solver="guess")
+    with pytest.raises(tactus.InvalidArgument, match="q: found 2"):
+        tactus.Belief(scenario, [1.0, 2.0])
+    belief = tactus.Belief(scenario)
+    with pytest.raises(tactus.StopOffPath) as caught:
+        belief.step(action, tactus.Observation(False, scenario.start + 1.0))
+    assert caught.value.status == 104 and caught.value.name == "TACTUS_STOP_OFF_PATH"
+    with pytest.raises(tactus.InvalidArgument, match=r"joints\[0\]"):
+        belief.step(action, tactus.Observation(False, np.full(6, np.nan)))
+
+
+def test_check_lists_what_is_wrong(tmp_path):
+    assert tactus.check(SHELF) == []
+    (tmp_path / "bad.yaml").write_text("robot: 3\nprior: 4\n")
+    assert len(tactus.check(tmp_path / "bad.yaml")) >= 2
+
+
+def test_closed_objects_say_so(scenario):
+    belief = tactus.Belief(scenario)
+    belief.close()
+    belief.close()
+    with pytest.raises(ValueError, match="closed"):
+        belief.summary
+
+
+def test_a_missing_library_is_told_with_its_path():
+    result = subprocess.run([sys.executable, "-c", "import tactus"], capture_output=True, text=True,
+                            env={**os.environ, "TACTUS_LIBRARY": "/nowhere.so", "PYTHONPATH": str(ROOT / "python_shim")})
+    assert result.returncode != 0 and "/nowhere.so" in result.stderr
+
+
+def test_save_and_restore(scenario, action):
+    belief = tactus.Belief(scenario)
+    belief.step(action, tactus.Observation(False, action.waypoints[-1]))
+    restored = tactus.Belief.restore(scenario, belief.save())
+    assert restored.save() == belief.save()
+    assert tactus.Action.restore(scenario, action.save()).id == action.id
+    with pytest.raises(tactus.BadInput):
+        tactus.Belief.restore(scenario, b"")
+
+
+def test_arrays_have_their_shapes(scenario, action):
+    assert action.waypoints.shape == (len(action.times), 6)
+    assert action.kind in ("move", "turn", "sweep", "poke", "insertion")
+    belief = tactus.Belief(scenario)
+    summary = belief.summary
+    assert belief.voxels.shape == (summary.possibly_occupied, 3) and belief.poses.shape == (0, 7)
+    assert summary.covariance.shape == (6, 6) and summary.phase == "voxels"
+
+
+# --- the loop, three times
+
+@pytest.fixture(scope="module")
+def loop_in_c():
+    return run(BUILD / "bin" / "shelf_loop", SHELF, SEED, EXPANSIONS)
+
+
+def run(*command):
+    result = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=280)
+    assert result.returncode in (0, 1), result.stderr
+    return result.stdout.splitlines()
+
+
+def test_examples_print_the_same(loop_in_c):
+    assert loop_in_c == run(sys.executable, ROOT / "examples" / "python" / "shelf_loop.py", SHELF, SEED, EXPANSIONS)
+
+
+def test_command_goes_the_same_way_and_writes_json_and_record(loop_in_c, tmp_path):
+    record = tmp_path / "record.json"
+    document = json.loads("\n".join(run(BUILD / "bin" / "tactus", "run", SHELF, "--seed", SEED, "--budget-expansions",
+                                        EXPANSIONS, "--json", "-", "--record", record)))
+    assert list(document) == ["scenario", "solver", "belief", "trials", "summary"]
+    trial, = document["trials"]
+    assert list(trial) == ["seed", "true_pose", "inserted", "truth_kept", "cost_m", "travel_m", "rotation_rad", "actions",
+                           "contacts", "planner_calls", "planning_s", "phase1_cost_m", "position_error_m",
+                           "angle_error_rad"]
+    assert trial["actions"] == len(loop_in_c) - 1 and trial["inserted"] == (loop_in_c[-1] == "inserted")
+    assert trial["cost_m"] == pytest.approx(
+        trial["travel_m"] + 0.05 * trial["rotation_rad"] + 0.005 * trial["actions"], rel=1e-6)
+    check_record(json.loads(record.read_text()), trial)
+    assert record.stat().st_size < 6e6
+
+
+def check_record(record, trial):
+    assert record["true_pose"] == trial["true_pose"]
+    assert len(record["steps"]) == trial["actions"]
+    assert {frame["action"] for frame in record["frames"]} == set(range(trial["actions"]))
+    assert all(len(frame["poses"]) == len(record["bodies"]) for frame in record["frames"])
+    assert sum(frame["contact"] for frame in record["frames"]) == trial["contacts"]
+    for step in record["steps"]:
+        assert len(step["belief"]["points"]) <= 400
