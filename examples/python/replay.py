@@ -6,9 +6,9 @@ The page is one file that needs no network. The record:
     scenario   its name
     bodies     [{name, kind: robot | tool | world | target, vertices: flat x y z in metres, triangles: flat indices}]
     frames     [{poses: a body each, x y z qx qy qz qw in the robot's base frame, action: index into steps, contact: bool}]
-    steps      [{kind, phase, contact, cost_m, planning_s, belief: {points: [[x, y, z]], ...}}], the belief as it is after the action
+    steps      [{kind, phase, contact, cost_m, planning_s, belief: {points: [[x, y, z]], ...}}], after the action: cost and planning so far
     prior      optional: the belief at the start, with the same keys
-    inserted   optional: whether the run ended plugged in
+    inserted   optional: whether the run ended plugged in; else judged by its last action
 """
 
 import base64
@@ -61,13 +61,14 @@ class Run:
         frames = record["frames"]
         if not frames or not record["bodies"]:
             raise ValueError("a record without frames or bodies shows nothing")
-        self.scenario, self.inserted = record.get("scenario") or "run", bool(record.get("inserted"))
+        self.scenario = record.get("scenario") or "run"
         self.bodies = [Body(body) for body in record["bodies"]]
         self.poses = np.array([frame["poses"] for frame in frames], float)
         self.action = np.array([frame.get("action") or 0 for frame in frames], int)
         self.contact = np.array([bool(frame.get("contact")) for frame in frames])
         self.start = Step({"kind": "start"}, record.get("prior"))
         self.steps = [Step(step) for step in record.get("steps") or []]
+        self.inserted = record.get("inserted", bool(self.steps) and self.steps[-1].kind == "insertion" and not self.steps[-1].contact)
         self.contacts = self._contacts()
 
     def placed(self, frame, kinds):

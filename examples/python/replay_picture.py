@@ -187,7 +187,7 @@ def chart(axes, run):
         return axes.axis("off")
     rows = [(i, step, step.belief[key]) for i, step in enumerate([run.start, *run.steps]) if step.belief.get(key) is not None]
     label = {"bits": "bits left", "possibly_occupied": "voxels left", "cells": "pose cells left"}[key]
-    axes.plot([i for i, _, _ in rows], [value for _, _, value in rows], "-o", lw=2.5, ms=5, color=BELIEF)
+    axes.plot([i for i, _, _ in rows], [value for _, _, value in rows], "-o", lw=2.5, ms=5 if len(rows) < 60 else 0, color=BELIEF)
     touched = [(i, value) for i, step, value in rows if step.contact]
     if touched:
         axes.plot(*zip(*touched), "o", ms=11, mec="white", mew=1.5, color=CONTACT, label="contact", ls="none")
@@ -237,7 +237,7 @@ def write_picture(run, path):
     below = grid[1, 1].subgridspec(1, 2, width_ratios=[1, 0.9], wspace=0.2)
     close_view(figure.add_subplot(below[0]), run, away, beside)
     chart(figure.add_subplot(below[1]), run)
-    cost = sum(step.cost or 0 for step in run.steps)
+    cost = max((step.cost or 0 for step in run.steps), default=0)
     figure.suptitle(f"{run.scenario}: {len(run.steps)} actions, {sum(step.contact for step in run.steps)} contacts, cost {cost:.2f} m",
                     x=0.02, y=0.965, ha="left", fontsize=26, color=INK, weight="bold")
     figure.savefig(path, dpi=100)

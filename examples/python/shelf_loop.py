@@ -15,9 +15,10 @@ def main(path, seed, expansions):
     belief = tactus.Belief(scenario)
     world = tactus.World(scenario, scenario.sample_pose(seed))  # your robot goes here
 
-    step = 0
-    while action := planner.query(belief):
-        step += 1
+    for step in range(1, scenario.limits["actions"] + 1):
+        action = planner.query(belief)
+        if action is None:
+            break  # planner.reason: the goal is reached, or nothing is worth trying
         seen = world.execute(action)
         belief.step(action, seen)
         known = belief.summary

@@ -12,21 +12,8 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr std::size_t tries_per_pose = 40;
-
-/// An index drawn in proportion to the weights, given their running sums.
-std::size_t draw_index(const std::vector<double>& running_sum, support::Rng& rng) {
-  const double at = rng.uniform() * running_sum.back();
-  const auto found = std::upper_bound(running_sum.begin(), running_sum.end(), at);
-  return std::min<std::size_t>(static_cast<std::size_t>(found - running_sum.begin()), running_sum.size() - 1);
-}
-
-Pose draw_in(const CellBelief& cells, const Cell& cell, support::Rng& rng) {
-  PoseVector v = cell.centre;
-  const PoseVector half = cells.half_width(cell);
-  for (int d = 0; d < 6; ++d) v[d] += half[d] * rng.uniform(-1.0, 1.0);
-  return geometry::pose_from(v);
-}
+constexpr std::size_t tries_per_pose = 4;      // of draws that halve cells
+constexpr std::size_t samples_per_pose = 40;   // of draws from the prior
 
 }  // namespace
 
@@ -104,7 +91,7 @@ bool Belief::is_goal() const {
 std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) const {
   std::vector<Pose> poses;
   const double radius = model_->voxels->grid.half_diagonal();
-  for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count; ++i) {
+  for (std::size_t i = 0; i < samples_per_pose * count && poses.size() < count; ++i) {
     const Pose pose = task().scene().prior.sample(rng);
     if (std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return may_reproduce(task(), trace, pose, radius); })) poses.push_back(pose);
   }
@@ -112,15 +99,10 @@ std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) co
 }
 
 std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng) const {
-  const std::vector<Cell>& cells = cells_->cells();
-  std::vector<double> running_sum;
-  for (const Cell& cell : cells) running_sum.push_back(cells_->volume(cell) + (running_sum.empty() ? 0.0 : running_sum.back()));
   std::vector<Pose> poses;
-  for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count; ++i) {
-    const Pose pose = draw_in(*cells_, cells[draw_index(running_sum, rng)], rng);
-    if (std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return reproduces(task(), trace, pose); })) poses.push_back(pose);
-  }
-  if (poses.empty()) poses.push_back(geometry::pose_from(cells[draw_index(running_sum, rng)].centre));
+  for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count; ++i)
+    if (const auto pose = cells_->draw(task(), history_, rng)) poses.push_back(*pose);
+  if (poses.empty()) poses.push_back(geometry::pose_from(cells_->cells()[cells_->draw_cell(rng)].centre));
   return poses;
 }
 

@@ -5,6 +5,11 @@
 #include <cmath>
 
 namespace tactus::belief {
+namespace {
+
+constexpr int draws_in_finest = 4;
+
+}  // namespace
 
 CellBelief::CellBelief(const Task& task, const CellOptions& options) : options_(options) {
   for (const Vector3& v : task.scene().target.mesh.vertices) reach_ = std::max(reach_, v.norm());
@@ -83,6 +88,48 @@ void CellBelief::split(const Cell& cell, std::vector<Cell>& halves) const {
   }
 }
 
+bool CellBelief::possible(const Task& task, const std::vector<Trace>& history, const Cell& cell) const {
+  const Pose pose = geometry::pose_from(cell.centre);
+  const double r = radius(cell);
+  return std::all_of(history.rbegin(), history.rend(), [&](const Trace& trace) { return may_reproduce(task, trace, pose, r); });
+}
+
+Pose CellBelief::random_pose(const Cell& cell, support::Rng& rng) const {
+  PoseVector v = cell.centre;
+  const PoseVector half = half_width(cell);
+  for (int d = 0; d < 6; ++d) v[d] += half[d] * rng.uniform(-1.0, 1.0);
+  return geometry::pose_from(v);
+}
+
+std::size_t CellBelief::draw_cell(support::Rng& rng) const {
+  double total = 0.0;
+  for (const Cell& cell : cells_) total += volume(cell);
+  double left = rng.uniform() * total;
+  for (std::size_t i = 0; i < cells_.size(); ++i)
+    if ((left -= volume(cells_[i])) <= 0.0) return i;
+  return cells_.size() - 1;
+}
+
+std::optional<Pose> CellBelief::draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const {
+  Cell cell = cells_[draw_cell(rng)];
+  while (may_split(cell)) {
+    std::vector<Cell> halves;
+    split(cell, halves);
+    if (rng.below(2) == 1) std::swap(halves[0], halves[1]);
+    if (possible(task, history, halves[0]))
+      cell = halves[0];
+    else if (possible(task, history, halves[1]))
+      cell = halves[1];
+    else
+      return std::nullopt;
+  }
+  for (int attempt = 0; attempt < draws_in_finest; ++attempt) {
+    const Pose pose = random_pose(cell, rng);
+    if (std::all_of(history.rbegin(), history.rend(), [&](const Trace& trace) { return reproduces(task, trace, pose); })) return pose;
+  }
+  return std::nullopt;
+}
+
 bool CellBelief::refine(const Task& task, const std::vector<Trace>& history) {
   while (2 * cells_.size() <= options_.most) {
     double coarsest = 0.0;
@@ -95,12 +142,8 @@ bool CellBelief::refine(const Task& task, const std::vector<Trace>& history) {
       else
         kept.push_back(cell);
     }
-    for (const Cell& cell : candidates) {
-      const Pose pose = geometry::pose_from(cell.centre);
-      const double r = radius(cell);
-      const bool possible = std::all_of(history.rbegin(), history.rend(), [&](const Trace& trace) { return may_reproduce(task, trace, pose, r); });
-      if (possible) kept.push_back(cell);
-    }
+    for (const Cell& cell : candidates)
+      if (possible(task, history, cell)) kept.push_back(cell);
     if (kept.empty()) return false;
     cells_ = std::move(kept);
   }

@@ -20,15 +20,12 @@ TargetContact::TargetContact(std::shared_ptr<const RobotBodies> bodies, const Me
   for (const Mesh& shell : geometry::shells(geometry::merged_vertices(target))) shell_points_.push_back(shell.vertices.front());
 }
 
-/// Where the look-up leaves a leaf undecided: its triangle against the target's, or for a negative threshold the depth of the leaf's centre.
-bool TargetContact::leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body, double threshold, double& gap) const {
-  if (threshold < 0.0) return field_.exact(target_from_body * leaf.centre) < threshold;
-  const Corners triangle = geometry::transformed(body.triangle(leaf.triangle), target_from_body);
-  const double bound = threshold + 2.0 * leaf.radius;
-  const double distance = field_.tree().distance(triangle, bound);
-  if (distance <= threshold || field_.tree().contains(target_from_body * leaf.centre)) return true;
-  gap = std::max(gap, distance);
-  return false;
+/// Where the look-up leaves a leaf undecided. For a depth (threshold < 0) the leaf's centre speaks; for a wide reach its ball, which errs to a hit; else its triangle against the target's.
+bool TargetContact::leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body, double threshold) const {
+  const Vector3 centre = target_from_body * leaf.centre;
+  if (threshold < 0.0) return field_.exact(centre) < threshold;
+  if (threshold > std::max(margin_, leaf.radius)) return field_.tree().distance(centre, threshold + 1.01 * leaf.radius) <= threshold + leaf.radius;
+  return field_.tree().within(geometry::transformed(body.triangle(leaf.triangle), target_from_body), threshold) || field_.tree().contains(centre);
 }
 
 /// Goes through the body's balls, deepest detail only where the target is near: a ball is passed over when it is at least half as far from the threshold as its centre.
@@ -45,10 +42,9 @@ TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_f
       continue;
     }
     if (ball.triangle >= 0) {
-      double gap = lower;
       if (bounds.upper < threshold) return {true, 0.0};
-      if (lower <= threshold && leaf_hit(body, ball, target_from_body, threshold, gap)) return {true, 0.0};
-      lowest = std::min(lowest, gap);
+      if (lower <= threshold && leaf_hit(body, ball, target_from_body, threshold)) return {true, 0.0};
+      lowest = std::min(lowest, lower);
     }
     ++i;
   }

@@ -25,7 +25,8 @@ class TargetContact {
   /// The first waypoint >= 1 in contact; none if the whole path is free.
   std::optional<std::size_t> first_contact(const BodyPath& path, const Pose& base_from_target) const;
 
-  /// The first waypoint >= `from` at which the robot, inflated by `radius` (m, >= 0), touches the target; 0 asks for crossing or containment, without a margin.
+  /// The first waypoint >= `from` at which the robot, inflated by `radius` (m, >= 0), touches the target; 0 asks for crossing or containment, without a margin. Exact up to the
+  /// margin; wider reaches may err to an earlier waypoint, by up to two leaf radii of reach.
   std::optional<std::size_t> first_within(const BodyPath& path, const Pose& base_from_target, double radius, std::size_t from = 1) const;
 
   /// Whether the robot touches the target at one waypoint.
@@ -38,7 +39,7 @@ class TargetContact {
   /// The first waypoint >= `from` whose robot, deflated by `radius` (m, > 0), certainly meets the target; none if no such waypoint is found.
   std::optional<std::size_t> first_certain_contact(const BodyPath& path, const Pose& base_from_target, double radius, std::size_t from = 1) const;
 
-  /// Whether the robot comes within `radius` (m) of the target at a waypoint.
+  /// Whether the robot comes within `radius` (m) of the target at a waypoint; errs as `first_within`.
   bool within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target, double radius) const;
 
   const Mesh& target() const { return target_; }
@@ -52,7 +53,7 @@ class TargetContact {
     double clearance = 0.0;  ///< of what is not hit, above the threshold: the body may move this far without a hit
   };
   Reach reach(const Body& body, const Pose& target_from_body, double threshold) const;
-  bool leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body, double threshold, double& gap) const;
+  bool leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body, double threshold) const;
   bool target_inside(const Body& body, const Pose& target_from_body) const;
   std::size_t first_reach(const BodyPath& path, std::size_t body, const Pose& base_from_target, double threshold, std::size_t from, std::size_t to) const;
   std::optional<std::size_t> first_reach(const BodyPath& path, const Pose& base_from_target, double threshold, std::size_t from) const;

@@ -20,6 +20,8 @@ DistanceField::DistanceField(const Mesh& mesh, double spacing, double border, st
   while (samples_at(spacing_) > static_cast<double>(max_samples)) spacing_ *= 1.1;
   origin_ = box.low;
   for (int d = 0; d < 3; ++d) count_[d] = static_cast<int>(std::ceil(box.size()[d] / spacing_)) + 1;
+  inverse_spacing_ = 1.0 / spacing_;
+  for (int d = 0; d < 3; ++d) last_[d] = count_[d] - 1;
   samples_.resize(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2]);
   fill();
 }
@@ -41,18 +43,21 @@ void DistanceField::fill() {
 }
 
 DistanceBounds DistanceField::bounds(const Vector3& p) const {
-  const Vector3 scaled = (p - origin_) / spacing_;
-  std::size_t index = 0, stride = 1;
-  Vector3 offset;
+  int index[3];
+  double squared = 0.0;
+  bool on_lattice = true;
   for (int d = 0; d < 3; ++d) {
-    const double nearest = std::clamp(std::floor(scaled[d] + 0.5), 0.0, static_cast<double>(count_[d] - 1));
-    offset[d] = scaled[d] - nearest;
-    index += static_cast<std::size_t>(nearest) * stride;
-    stride *= static_cast<std::size_t>(count_[d]);
+    const double scaled = (p[d] - origin_[d]) * inverse_spacing_;
+    const double nearest = std::clamp(std::floor(scaled + 0.5), 0.0, last_[d]);
+    const double offset = scaled - nearest;
+    on_lattice = on_lattice && std::abs(offset) <= 0.5001;
+    squared += offset * offset;
+    index[d] = static_cast<int>(nearest);
   }
-  const double sample = static_cast<double>(samples_[index]);
-  const double error = offset.norm() * spacing_ + float_slack * std::max(1.0, std::abs(sample));
-  if (offset.cwiseAbs().maxCoeff() <= 0.5001) return {sample - error, sample + error};
+  const std::size_t at = static_cast<std::size_t>(index[0]) + static_cast<std::size_t>(count_[0]) * (static_cast<std::size_t>(index[1]) + static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(index[2]));
+  const auto sample = static_cast<double>(samples_[at]);
+  const double error = std::sqrt(squared) * spacing_ + float_slack * (1.0 + std::abs(sample));
+  if (on_lattice) return {sample - error, sample + error};
   return {std::max(sample - error, tree_.box().distance(p)), sample + error};
 }
 

@@ -39,6 +39,8 @@ class DistanceField {
   double spacing_;
   Vector3 origin_;
   std::array<int, 3> count_{};
+  double inverse_spacing_ = 0.0;
+  std::array<double, 3> last_{};  ///< of the indices
   std::vector<float> samples_;  ///< x fastest
 };
 

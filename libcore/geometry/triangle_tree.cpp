@@ -10,8 +10,6 @@ namespace {
 constexpr int leaf_size = 4;
 constexpr int stack_size = 128;
 
-double gap(const Box& a, const Box& b) { return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm(); }
-
 /// Whether the ray meets the box (slabs; a direction without zero components).
 bool meets(const Box& box, const Vector3& origin, const Vector3& inverse_direction) {
   const Vector3 a = (box.low - origin).cwiseProduct(inverse_direction);
@@ -60,21 +58,21 @@ void TriangleTree::build(int node, int begin, int end) {
   build(left + 1, middle, end);
 }
 
-template <typename Query, typename Gap, typename Exact>
-double TriangleTree::nearest(const Query& query, double bound, Gap gap_to, Exact exact) const {
+double TriangleTree::distance(const Vector3& p, double bound) const {
   std::array<std::pair<double, int>, stack_size> stack;
   int top = 0;
-  stack[top++] = {gap_to(nodes_[0].box, query), 0};
+  stack[top++] = {nodes_[0].box.distance(p), 0};
   while (top > 0) {
     const auto [lower, index] = stack[--top];
     if (lower >= bound) continue;
     const Node& node = nodes_[index];
     if (node.count > 0) {
-      for (int i = node.first; i < node.first + node.count; ++i) bound = std::min(bound, exact(faces_[i].corners, query));
+      for (int i = node.first; i < node.first + node.count; ++i)
+        bound = std::min(bound, (closest_point(faces_[i].corners, p) - p).norm());
       continue;
     }
-    std::pair<double, int> near{gap_to(nodes_[node.first].box, query), node.first};
-    std::pair<double, int> far{gap_to(nodes_[node.first + 1].box, query), node.first + 1};
+    std::pair<double, int> near{nodes_[node.first].box.distance(p), node.first};
+    std::pair<double, int> far{nodes_[node.first + 1].box.distance(p), node.first + 1};
     if (far.first < near.first) std::swap(near, far);
     stack[top++] = far;
     stack[top++] = near;
@@ -82,17 +80,23 @@ double TriangleTree::nearest(const Query& query, double bound, Gap gap_to, Exact
   return bound;
 }
 
-double TriangleTree::distance(const Vector3& p, double bound) const {
-  return nearest(
-      p, bound, [](const Box& box, const Vector3& q) { return box.distance(q); },
-      [](const Corners& t, const Vector3& q) { return (closest_point(t, q) - q).norm(); });
-}
-
-double TriangleTree::distance(const Corners& triangle, double bound) const {
-  const Box box = bounds(triangle);
-  return nearest(
-      triangle, bound, [&box](const Box& other, const Corners&) { return gap(other, box); },
-      [](const Corners& t, const Corners& q) { return geometry::distance(t, q); });
+bool TriangleTree::within(const Corners& triangle, double reach) const {
+  const Box near = bounds(triangle).inflated(reach);
+  std::array<int, stack_size> stack;
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Node& node = nodes_[stack[--top]];
+    if (!node.box.overlaps(near)) continue;
+    if (node.count == 0) {
+      stack[top++] = node.first;
+      stack[top++] = node.first + 1;
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i)
+      if (bounds(faces_[i].corners).overlaps(near) && geometry::distance(faces_[i].corners, triangle) <= reach) return true;
+  }
+  return false;
 }
 
 int TriangleTree::winding(const Vector3& p, const Vector3& direction) const {

@@ -16,8 +16,8 @@ class TriangleTree {
   /// The distance from `p` to the surface, if it is below `bound`; else `bound`.
   double distance(const Vector3& p, double bound = 1e300) const;
 
-  /// The distance from a triangle to the surface, if it is below `bound`; else `bound`. 0 if they cross.
-  double distance(const Corners& triangle, double bound) const;
+  /// Whether a triangle is no farther than `reach` metres from the surface, crosses or touches it.
+  bool within(const Corners& triangle, double reach) const;
 
   /// Whether `p` lies inside one of the closed shells (nested or overlapping ones are united). Open shells contain nothing.
   bool contains(const Vector3& p) const;
@@ -37,8 +37,6 @@ class TriangleTree {
 
   void build(int node, int begin, int end);
   int winding(const Vector3& p, const Vector3& direction) const;
-  template <typename Point, typename Gap, typename Exact>
-  double nearest(const Point& query, double bound, Gap gap, Exact exact) const;
 
   std::vector<Face> faces_;
   std::vector<Node> nodes_;

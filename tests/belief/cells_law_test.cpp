@@ -13,7 +13,7 @@ using belief::CellBelief;
 using support::Rng;
 
 const std::shared_ptr<const belief::Model>& model() {
-  static const auto made = small_model(belief::Kind::particles, {.roll_width = 0.5, .position_width = 0.05, .most_cells = 800});
+  static const auto made = small_model(belief::Kind::particles, {.roll_width = 0.4, .position_width = 0.04, .most_cells = 200});
   return made;
 }
 
@@ -54,7 +54,7 @@ TEST(Cells, CoverThePriorExactly) {
   Rng rng(3);
   double volume = 0.0;
   for (const Cell& cell : cells.cells()) volume += cells.volume(cell);
-  EXPECT_NEAR(volume, 0.05 * 0.05 * 0.5, 1e-12);
+  EXPECT_NEAR(volume, 0.04 * 0.04 * 0.4, 1e-12);
   for (int i = 0; i < 500; ++i) {
     const PoseVector v = random_pose(task().scene().prior, rng);
     const auto in = std::count_if(cells.cells().begin(), cells.cells().end(), [&](const Cell& cell) { return holds(cells, cell, v); });

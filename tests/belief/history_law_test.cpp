@@ -102,9 +102,9 @@ TEST_P(HistoryLaw, ACorrectObservationNeverRemovesTheTruth) {
 INSTANTIATE_TEST_SUITE_P(EveryKind, HistoryLaw,
                          ::testing::Values(Case{"voxels", Kind::hierarchical, {.delta = 0}, 12},
                                            Case{"coarse_voxels", Kind::hierarchical, {.voxel_size = 0.009, .delta = 0}, 8},
-                                           Case{"hand_over", Kind::hierarchical, {.delta = 3200, .most_cells = 600}, 8},
-                                           Case{"cells", Kind::particles, {.most_cells = 1500}, 8},
-                                           Case{"fine_cells", Kind::particles, {.roll_width = 0.2, .position_width = 0.03, .most_cells = 600}, 8}),
+                                           Case{"hand_over", Kind::hierarchical, {.roll_width = 0.6, .position_width = 0.06, .delta = 1900, .most_cells = 200}, 6},
+                                           Case{"cells", Kind::particles, {.roll_width = 0.6, .position_width = 0.06, .most_cells = 400}, 4},
+                                           Case{"fine_cells", Kind::particles, {.roll_width = 0.2, .position_width = 0.02, .most_cells = 150}, 4}),
                          [](const auto& chosen) { return chosen.param.name; });
 
 }  // namespace

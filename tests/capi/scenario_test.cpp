@@ -50,7 +50,7 @@ TEST(Scenario, SaysWhatTheRobotIs) {
   expect_ok(tactus_scenario_dof(scenario, &dof));
   EXPECT_EQ(dof, 6u);
   expect_ok(tactus_scenario_name(scenario, &name));
-  EXPECT_STREQ(name, "shelf_3d");
+  EXPECT_STREQ(name, "small_shelf");
   expect_ok(tactus_scenario_joint_name(scenario, 0, &name));
   EXPECT_STREQ(name, "shoulder_pan_joint");
   double lower = 0, upper = 0, velocity = 0;
@@ -82,8 +82,9 @@ TEST(Scenario, CostsAndLimitsAreTheFiles) {
   EXPECT_EQ(costs.metre, 1.0);
   EXPECT_EQ(costs.radian, 0.05);
   EXPECT_EQ(costs.action, 0.005);
-  EXPECT_GT(limits.actions, 0);
-  EXPECT_GT(limits.travel, 0.0);
+  EXPECT_EQ(limits.actions, 3);
+  EXPECT_EQ(limits.travel, 60.0);
+  EXPECT_EQ(limits.seconds, 600.0);
   costs.struct_size = 16;  // an older caller: only `metre` is there
   costs.metre = costs.radian = -1.0;
   expect_ok(tactus_scenario_costs(shelf::scenario(), &costs));

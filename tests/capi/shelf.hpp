@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-/// The shelf of the examples through the C ABI, with handles that give themselves back.
+/// A small search in the shelf of the examples through the C ABI, with handles that give themselves back.
 namespace shelf {
 
-inline const std::string folder = std::string(TACTUS_SOURCE_DIR) + "/examples/scenarios";
-inline const std::string file = folder + "/shelf_3d.yaml";
+inline const std::string folder = std::string(TACTUS_SOURCE_DIR) + "/tests/capi";
+inline const std::string file = folder + "/small_shelf.yaml";
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -70,7 +70,7 @@ inline Belief belief(const tactus_scenario* of = scenario(), tactus_belief_kind 
 }
 
 /// With a budget of a few expansions, so that tests are quick and the same everywhere.
-inline Planner planner(const tactus_scenario* of = scenario(), std::uint64_t expansions = 5) {
+inline Planner planner(const tactus_scenario* of = scenario(), std::uint64_t expansions = 2) {
   tactus_planner_options options{};
   expect_ok(tactus_planner_options_init(&options, sizeof options));
   expect_ok(tactus_scenario_planner_options(of, &options));

@@ -13,8 +13,8 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("TACTUS_BUILD", ROOT / "build" / "release"))
 LIBRARY = BUILD / "lib" / "libtactus.so"
-SHELF = ROOT / "examples" / "scenarios" / "shelf_3d.yaml"
-SEED, EXPANSIONS = 1, 10
+SHELF = ROOT / "tests" / "capi" / "small_shelf.yaml"
+SEED, EXPANSIONS = 1, 2
 
 if not LIBRARY.exists():
     pytest.skip(f"{LIBRARY} is not built", allow_module_level=True)
@@ -43,7 +43,7 @@ def test_every_exported_function_is_typed_and_no_other():
 
 
 def test_scenario_says_what_it_is(scenario):
-    assert scenario.name == "shelf_3d"
+    assert scenario.name == "small_shelf"
     assert scenario.dof == len(scenario.joint_names) == 6
     assert scenario.joint_limits.shape == (6, 3)
     assert scenario.start.shape == (6,)

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "action/library.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "action/insertion.hpp"
+#include "action/primitives.hpp"
+#include "action/probes.hpp"
+#include "belief/small_task.hpp"
+#include "motion/path_laws.hpp"
+
+/// Motions made executable from where the robot is.
+namespace tactus::test {
+namespace {
+
+using action::Action;
+using action::ActionLibrary;
+using action::MotionPtr;
+using support::Deadline;
+using support::Rng;
+
+const action::Task& task() {
+  static const auto made = small_task();
+  return *made;
+}
+
+void expect_executable(const Action& action, const JointVector& q, const action::Motion& motion) {
+  expect_free_in_steps(task().known_world(), action.path, task().options().motion.step);
+  ASSERT_EQ(action.path.front(), q);
+  ASSERT_EQ(action.path.back(), motion.path.back());
+  ASSERT_EQ(action.path.size(), action.lead + motion.path.size());
+  ASSERT_TRUE(std::equal(motion.path.begin(), motion.path.end(), action.path.begin() + static_cast<std::ptrdiff_t>(action.lead)));
+  ASSERT_EQ(action.kind, motion.kind);
+  ASSERT_EQ(action.id, action::path_id(action.path));
+  ASSERT_EQ(action.bodies.size(), action.path.size());
+  ASSERT_EQ(action.times.size(), action.path.size());
+  ASSERT_EQ(action.times.front(), 0.0);
+  for (std::size_t i = 1; i < action.times.size(); ++i) ASSERT_GT(action.times[i], action.times[i - 1]);
+  const motion::ToolTravel travel = motion::tool_travel(*task().scene().robot, task().scene().tool_link, action.path);
+  ASSERT_NEAR(action.length, travel.metres, 1e-12);
+  ASSERT_NEAR(action.full_cost, travel.metres + 0.05 * travel.radians + 0.005, 1e-12);
+}
+
+TEST(Library, RealisesEveryMotionFromWhereTheRobotIs) {
+  Rng rng(1);
+  ActionLibrary library(task());
+  const std::vector<MotionPtr> probes = action::probes(task(), task().frame().region, task().home());
+  JointVector q = task().scene().start;
+  for (int i = 0; i < 24; ++i) {
+    const std::vector<MotionPtr> near = library.primitives_at(q);
+    MotionPtr motion = i % 3 == 0 ? near[rng.below(near.size())] : i % 3 == 1 ? probes[rng.below(probes.size())] : nullptr;
+    if (!motion) motion = action::insertion(task(), task().scene().prior.sample(rng), q);
+    const auto action = library.realise(q, *motion, Deadline::unlimited());
+    ASSERT_TRUE(action) << i;
+    ASSERT_NO_FATAL_FAILURE(expect_executable(*action, q, *motion)) << i;
+    EXPECT_TRUE(motion->anchored || action->lead == 0);
+    EXPECT_TRUE(action->supposed_target.isApprox(motion->supposed_target));
+    q = action->path[rng.below(action->path.size())];  // as after a contact
+  }
+}
+
+TEST(Library, TheWayOutOfTheTargetIsStraightBack) {
+  ActionLibrary library(task());
+  const Pose target = task().scene().prior.central_pose();
+  const MotionPtr insertion = action::insertion(task(), target, task().home());
+  const JointVector seated = insertion->path.back();
+  const MotionPtr probe = action::probes(task(), task().frame().region, task().home()).front();
+  const auto action = library.realise(seated, *probe, Deadline::unlimited());
+  ASSERT_TRUE(action);
+  ASSERT_NO_FATAL_FAILURE(expect_executable(*action, seated, *probe));
+  const Vector3 axis = task().frame().base_from_search.linear().col(2), from = task().base_from_tool(seated).translation();
+  for (const JointVector& q : action->path) {
+    const Vector3 moved = task().base_from_tool(q).translation() - from;
+    if (axis.dot(moved) > task().frame().standoff - 1e-4 - axis.dot(from - task().frame().base_from_search.translation())) {
+      EXPECT_LT((moved - axis.dot(moved) * axis).norm(), 1e-5);
+    } else {
+      break;
+    }
+  }
+}
+
+TEST(Library, GoesRoundWhatBlocksTheStraightWay) {
+  const JointVector behind_the_post = joints({0.46, 0.20, 0.0, 0.0, 0.0, 0.0});
+  ASSERT_TRUE(task().known_world().is_free(behind_the_post));
+  ActionLibrary library(task());
+  const MotionPtr probe = action::probes(task(), task().frame().region, task().home()).front();
+  const auto action = library.realise(behind_the_post, *probe, Deadline::unlimited());
+  ASSERT_TRUE(action);
+  ASSERT_NO_FATAL_FAILURE(expect_executable(*action, behind_the_post, *probe));
+}
+
+TEST(Library, FromTheMotionsOwnStartThereIsNoLead) {
+  ActionLibrary library(task());
+  const MotionPtr probe = action::probes(task(), task().frame().region, task().home()).front();
+  const auto action = library.realise(probe->path.front(), *probe, Deadline::unlimited());
+  ASSERT_TRUE(action);
+  ASSERT_NO_FATAL_FAILURE(expect_executable(*action, probe->path.front(), *probe));
+}
+
+TEST(Library, KeepsThePrimitivesOfAConfiguration) {
+  ActionLibrary library(task());
+  const JointVector q = task().scene().start;
+  const std::vector<MotionPtr> first = library.primitives_at(q);
+  EXPECT_EQ(library.primitives_at(q), first);
+  const std::vector<MotionPtr> anew = action::primitives(task(), q);
+  ASSERT_EQ(anew.size(), first.size());
+  for (std::size_t i = 0; i < anew.size(); ++i) EXPECT_EQ(anew[i]->path, first[i]->path);
+}
+
+TEST(Library, IsSharedByThreads) {
+  ActionLibrary library(task());
+  std::array<std::vector<MotionPtr>, 4> seen;
+  std::vector<std::thread> threads;
+  for (auto& mine : seen)
+    threads.emplace_back([&] {
+      for (int i = 0; i < 3; ++i) mine = library.primitives_at(task().scene().start + joints({-0.01 * i, 0, 0, 0, 0, 0}));
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& mine : seen) EXPECT_EQ(mine, seen[0]);
+}
+
+TEST(PathId, TellsPathsApart) {
+  const JointVector a = joints({0.1, 0.2}), b = joints({0.2, 0.1});
+  EXPECT_EQ(action::path_id({a, b}), action::path_id({a, b}));
+  EXPECT_NE(action::path_id({a, b}), action::path_id({b, a}));
+  EXPECT_NE(action::path_id({a, b}), action::path_id({a}));
+}
+
+}  // namespace
+}  // namespace tactus::test

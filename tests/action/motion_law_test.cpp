@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "action/insertion.hpp"
+#include "action/primitives.hpp"
+#include "action/probes.hpp"
+#include "belief/small_task.hpp"
+#include "motion/path_laws.hpp"
+
+/// What holds of every motion of the search: free, inside the limits, no point of the robot moving more than the step, and costs that add up.
+namespace tactus::test {
+namespace {
+
+using action::Kind;
+using action::Motion;
+using action::MotionPtr;
+using support::Rng;
+
+const action::Task& task() {
+  static const auto made = small_task();
+  return *made;
+}
+
+/// Free configurations of the search: on the retreat plane and beside the region.
+JointVector random_free(Rng& rng) {
+  for (;;) {
+    const Vector3 position(rng.uniform(-0.06, 0.06), rng.uniform(-0.06, 0.06), task().frame().standoff + rng.uniform(-0.02, 0.03));
+    if (const auto q = task().posture(task().frame().base_from_tool(position, rng.uniform(-0.8, 0.8)), task().home())) return *q;
+  }
+}
+
+double way(const Motion& motion, std::size_t i) {
+  const Pose from = task().base_from_tool(motion.path[i - 1]), to = task().base_from_tool(motion.path[i]);
+  return (to.translation() - from.translation()).norm() + 0.05 * geometry::angle_between(from, to);
+}
+
+void expect_sound(const Motion& motion, double step) {
+  expect_free_in_steps(task().known_world(), motion.path, step);
+  for (const JointVector& q : motion.path) ASSERT_TRUE(robot::inside_limits(*task().scene().robot, q));
+  ASSERT_EQ(motion.bodies.size(), motion.path.size());
+  ASSERT_EQ(motion.cost_to.size(), motion.path.size());
+  double cost = 0.0;
+  for (std::size_t i = 1; i < motion.path.size(); ++i) ASSERT_NEAR(motion.cost_to[i], cost += way(motion, i), 1e-9);
+  ASSERT_TRUE(motion.base_from_start.isApprox(task().base_from_tool(motion.path.front())));
+  ASSERT_FALSE(motion.pace.empty());
+  ASSERT_EQ(motion.pace.front().first, 0u);
+}
+
+TEST(Primitives, AreSoundAndStartWhereTheRobotIs) {
+  Rng rng(1);
+  for (int i = 0; i < 12; ++i) {
+    const JointVector q = random_free(rng);
+    const std::vector<MotionPtr> motions = action::primitives(task(), q);
+    EXPECT_GT(motions.size(), 8u);
+    std::set<Kind> kinds;
+    for (const MotionPtr& motion : motions) {
+      ASSERT_NO_FATAL_FAILURE(expect_sound(*motion, task().options().motion.step));
+      EXPECT_EQ(motion->path.front(), q);
+      EXPECT_FALSE(motion->anchored);
+      kinds.insert(motion->kind);
+    }
+    EXPECT_EQ(kinds, (std::set{Kind::move, Kind::turn}));
+  }
+}
+
+TEST(Primitives, KeepToTheirAxesAndLengths) {
+  Rng rng(2);
+  const JointVector q = random_free(rng);
+  const Pose search_from_base = task().frame().base_from_search.inverse();
+  const Pose from = search_from_base * task().base_from_tool(q);
+  for (const MotionPtr& motion : action::primitives(task(), q)) {
+    const Pose to = search_from_base * task().base_from_tool(motion->path.back());
+    const Vector3 moved = to.translation() - from.translation();
+    const double turned = geometry::angle_between(from, to);
+    if (motion->kind == Kind::move) {
+      EXPECT_LT(turned, 1e-5);
+      EXPECT_NEAR(moved.cwiseAbs().maxCoeff(), moved.norm(), 1e-5);
+      EXPECT_LT(moved.norm(), 0.06 + 1e-5);
+    } else {
+      EXPECT_LT(moved.norm(), 1e-5);
+      EXPECT_LT(turned, 0.2 + 1e-5);
+    }
+  }
+}
+
+TEST(Primitives, AlongOneRayArePrefixesOfOneAnother) {
+  Rng rng(3);
+  const std::vector<MotionPtr> motions = action::primitives(task(), random_free(rng));
+  for (std::size_t i = 1; i < motions.size(); ++i) {
+    const auto &shorter = motions[i - 1]->path, &longer = motions[i]->path;
+    if (shorter.size() >= longer.size() || shorter[1] != longer[1]) continue;
+    EXPECT_TRUE(std::equal(shorter.begin(), shorter.end(), longer.begin()));
+  }
+}
+
+TEST(Primitives, WhatTheWorldBlocksIsAsLongAsItIsFree) {
+  const JointVector q = joints({0.46, 0.09, 0.0, 0.0, 0.0, 0.0});  // beside the post: less than 2 cm to go
+  ASSERT_TRUE(task().known_world().is_free(q));
+  int towards = 0;
+  for (const MotionPtr& motion : action::primitives(task(), q)) {
+    ASSERT_NO_FATAL_FAILURE(expect_sound(*motion, task().options().motion.step));
+    const double moved = task().base_from_tool(motion->path.back()).translation().y() - task().base_from_tool(q).translation().y();
+    EXPECT_LT(moved, 0.013 + 1e-5);
+    towards += moved > 0.004;
+  }
+  EXPECT_EQ(towards, 1);
+}
+
+TEST(Probes, AreSoundSetOutFromTheRetreatPlaneAndGoIntoTheRegion) {
+  const std::vector<MotionPtr> motions = action::probes(task(), task().frame().region, task().home());
+  EXPECT_GT(motions.size(), 8u);
+  std::set<Kind> kinds;
+  const Pose search_from_base = task().frame().base_from_search.inverse();
+  for (const MotionPtr& motion : motions) {
+    ASSERT_NO_FATAL_FAILURE(expect_sound(*motion, task().options().motion.step));
+    EXPECT_TRUE(motion->anchored);
+    EXPECT_NEAR((search_from_base * motion->base_from_start.translation()).z(), task().frame().standoff, 1e-5);
+    const double tip = (search_from_base * task().base_from_tool(motion->path.back()).translation()).z() + task().frame().tool_extent.high.z();
+    EXPECT_GT(tip, task().frame().region.low.z());
+    kinds.insert(motion->kind);
+  }
+  EXPECT_EQ(kinds, (std::set{Kind::sweep, Kind::poke}));
+}
+
+TEST(Probes, AimAtASmallerRegionToo) {
+  geometry::Box region = task().frame().region;
+  region.low += 0.4 * region.size();
+  region.high = region.low + 0.02 * Vector3::Ones();
+  for (const MotionPtr& motion : action::probes(task(), region, task().home(), 2)) {
+    ASSERT_NO_FATAL_FAILURE(expect_sound(*motion, task().options().motion.step));
+  }
+}
+
+TEST(Insertion, EndsSeatedGoingInAlongTheAxisInFineSteps) {
+  Rng rng(4);
+  const action::MotionOptions& options = task().options().motion;
+  for (int i = 0; i < 12; ++i) {
+    const Pose target = task().scene().prior.sample(rng);
+    const MotionPtr motion = action::insertion(task(), target, task().home());
+    ASSERT_TRUE(motion);
+    ASSERT_NO_FATAL_FAILURE(expect_sound(*motion, options.step));
+    EXPECT_EQ(motion->kind, Kind::insertion);
+    EXPECT_TRUE(motion->supposed_target.isApprox(target));
+    EXPECT_TRUE(task().scene().is_seated(task().base_from_tool(motion->path.back()), target));
+    const Pose seated = task().scene().seated(target);
+    const Vector3 axis = target.linear() * task().scene().target.approach_axis;
+    double before = 1e300;
+    for (std::size_t w = 0; w < motion->path.size(); ++w) {
+      const Pose tool = task().base_from_tool(motion->path[w]);
+      const Vector3 left = seated.translation() - tool.translation();
+      EXPECT_LT((left - axis.dot(left) * axis).norm(), 1e-5);
+      EXPECT_LT(axis.dot(left), before);
+      EXPECT_LT(geometry::angle_between(tool, seated), 1e-5);
+      if (w > 0 && before < task().scene().target.approach_depth + 1e-5) {
+        EXPECT_LE(vertex_motion(task().known_world().model(), motion->path[w - 1], motion->path[w]), options.insertion_step * (1.0 + 1e-9));
+      }
+      before = axis.dot(left);
+    }
+  }
+}
+
+TEST(Motion, TheFirstWaypointsOfAMotionCostWhatTheyDid) {
+  const MotionPtr whole = action::probes(task(), task().frame().region, task().home()).front();
+  const MotionPtr part = action::truncated(task(), *whole, 5);
+  ASSERT_EQ(part->path.size(), 5u);
+  EXPECT_TRUE(std::equal(part->path.begin(), part->path.end(), whole->path.begin()));
+  EXPECT_NEAR(part->cost_to.back(), whole->cost_to[4], 1e-12);
+  EXPECT_EQ(part->anchored, whole->anchored);
+}
+
+TEST(Motion, JoinedPathsMeetInOneWaypoint) {
+  const JointVector a = joints({0}), b = joints({1}), c = joints({2});
+  EXPECT_EQ(action::joined({a, b}, {b, c}), (motion::JointPath{a, b, c}));
+  EXPECT_EQ(action::joined({}, {b, c}), (motion::JointPath{b, c}));
+}
+
+TEST(Motion, TransitCostsNothingInPlaceAndNoLessThanTheStraightWay) {
+  Rng rng(5);
+  for (int i = 0; i < 20; ++i) {
+    const Pose from = task().base_from_tool(random_free(rng)), to = task().base_from_tool(random_free(rng));
+    EXPECT_NEAR(action::transit_cost(task(), from, from), 0.0, 1e-6);
+    EXPECT_GE(action::transit_cost(task(), from, to) + 1e-9, (from.translation() - to.translation()).norm());
+  }
+}
+
+}  // namespace
+}  // namespace tactus::test
