@@ -45,7 +45,8 @@ Task::Task(scene::Scene scene, TaskOptions options)
     : scene_(std::move(scene)),
       options_(std::move(options)),
       known_world_(std::make_unique<contact::KnownWorld>(with_tool(scene_), meshes(scene_.world), names(scene_.world))),
-      bodies_(std::make_shared<contact::RobotBodies>(scene_.robot, scene_.tool_link, scene_.tool)),
+      bodies_(std::make_shared<contact::RobotBodies>(scene_.robot, scene_.tool_link, scene_.tool,
+                                                      scene::target_region(scene_, Pose::Identity()))),
       target_contact_(std::make_unique<contact::TargetContact>(bodies_, scene_.target.mesh, options_.contact_margin)),
       frame_(scene::search_frame(scene_, options_.actions.standoff)) {
   const std::string collision = known_world_->describe_collision(scene_.start);

@@ -76,7 +76,7 @@ class Belief {
   /// To 1e-9 m and rad; angles modulo whole turns, and in every way in which roll, pitch and yaw describe the same rotation.
   bool contains(const Pose& base_from_target) const;
 
-  /// Up to `count` poses drawn uniformly from the cells that reproduce the whole history exactly (phase 2 only). Fewer, down to one, where they are hard to find;
+  /// Up to `count` poses drawn from all over the cells that reproduce the whole history exactly (phase 2 only). Fewer, down to one, where they are hard to find;
   /// at worst a cell's centre.
   std::vector<Pose> draw(std::size_t count, support::Rng& rng) const;
 

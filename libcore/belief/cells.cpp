@@ -4,13 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "belief/projection.hpp"
+
 namespace tactus::belief {
-namespace {
-
-constexpr int draws_in_finest = 4;
-
-}  // namespace
-
 CellBelief::CellBelief(const Task& task, const CellOptions& options) : options_(options) {
   for (const Vector3& v : task.scene().target.mesh.vertices) reach_ = std::max(reach_, v.norm());
   const scene::Prior& prior = task.scene().prior;
@@ -94,13 +90,6 @@ bool CellBelief::possible(const Task& task, const std::vector<Trace>& history, c
   return std::all_of(history.rbegin(), history.rend(), [&](const Trace& trace) { return may_reproduce(task, trace, pose, r); });
 }
 
-Pose CellBelief::random_pose(const Cell& cell, support::Rng& rng) const {
-  PoseVector v = cell.centre;
-  const PoseVector half = half_width(cell);
-  for (int d = 0; d < 6; ++d) v[d] += half[d] * rng.uniform(-1.0, 1.0);
-  return geometry::pose_from(v);
-}
-
 std::size_t CellBelief::draw_cell(support::Rng& rng) const {
   double total = 0.0;
   for (const Cell& cell : cells_) total += volume(cell);
@@ -111,23 +100,11 @@ std::size_t CellBelief::draw_cell(support::Rng& rng) const {
 }
 
 std::optional<Pose> CellBelief::draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const {
-  Cell cell = cells_[draw_cell(rng)];
-  while (may_split(cell)) {
-    std::vector<Cell> halves;
-    split(cell, halves);
-    if (rng.below(2) == 1) std::swap(halves[0], halves[1]);
-    if (possible(task, history, halves[0]))
-      cell = halves[0];
-    else if (possible(task, history, halves[1]))
-      cell = halves[1];
-    else
-      return std::nullopt;
-  }
-  for (int attempt = 0; attempt < draws_in_finest; ++attempt) {
-    const Pose pose = random_pose(cell, rng);
-    if (std::all_of(history.rbegin(), history.rend(), [&](const Trace& trace) { return reproduces(task, trace, pose); })) return pose;
-  }
-  return std::nullopt;
+  const Cell& cell = cells_[draw_cell(rng)];
+  const PoseVector half = half_width(cell);
+  PoseVector seed = cell.centre;
+  for (int d = 0; d < 6; ++d) seed[d] += half[d] * rng.uniform(-1.0, 1.0);
+  return projected(task, history, seed);
 }
 
 bool CellBelief::refine(const Task& task, const std::vector<Trace>& history) {

@@ -41,8 +41,7 @@ class CellBelief {
   /// Splits cells, the coarsest first, while they are few, and tests the new ones against the whole history. False (and unchanged from there on) if that would leave none.
   bool refine(const Task& task, const std::vector<Trace>& history);
 
-  /// A pose that reproduces the whole history exactly, found by halving a cell drawn by volume down to the finest radius and keeping at random a half that may have given the history.
-  /// None if that led nowhere. About a hundred tests of the history.
+  /// A pose that reproduces the whole history exactly: a random one of a cell drawn by volume, brought into agreement with the history (see `projected`). None if that led nowhere.
   std::optional<Pose> draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const;
 
   /// A cell's index, drawn by volume.
@@ -55,7 +54,6 @@ class CellBelief {
   bool may_split(const Cell& cell) const { return radius(cell) > options_.finest_radius; }
   void split(const Cell& cell, std::vector<Cell>& halves) const;
   bool possible(const Task& task, const std::vector<Trace>& history, const Cell& cell) const;
-  Pose random_pose(const Cell& cell, support::Rng& rng) const;
 
   CellOptions options_;
   PoseVector initial_half_{};

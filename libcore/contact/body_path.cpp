@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contact/body_path.hpp"
 
+#include <algorithm>
+
+#include "contact/solid.hpp"
+
 namespace tactus::contact {
 namespace {
 
@@ -15,8 +19,10 @@ bool moves(const robot::RobotModel& model, int link) {
 
 }  // namespace
 
-RobotBodies::RobotBodies(std::shared_ptr<const robot::RobotModel> model, int tool_link, const Mesh& tool)
-    : model_(std::move(model)), tool_link_(tool_link) {
+const geometry::Box RobotBodies::everywhere{Vector3::Constant(-1e300), Vector3::Constant(1e300)};
+
+RobotBodies::RobotBodies(std::shared_ptr<const robot::RobotModel> model, int tool_link, const Mesh& tool, const geometry::Box& region)
+    : model_(std::move(model)), tool_link_(tool_link), region_(region) {
   bodies_.push_back(std::make_unique<Body>(tool, tool_leaf_radius));
   links_.push_back(tool_link);
   for (int link = static_cast<int>(model_->links.size()) - 1; link >= 0; --link) {
@@ -41,6 +47,16 @@ BodyPath::BodyPath(const RobotBodies& bodies, const std::vector<robot::JointVect
   for (std::size_t i = bodies_; i < poses_.size(); ++i)
     travelled_[i] = travelled_[i - bodies_] +
                     geometry::largest_displacement(bodies.body(i % bodies_).tree().box(), poses_[i - bodies_], poses_[i]);
+  const geometry::Box near = bodies.region().inflated(region_margin);
+  for (std::size_t body = 0; body < bodies_; ++body) {
+    Range range{size(), 0};
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (!moved_box(bodies.body(body).tree().box(), base_from_body(i, body)).overlaps(near)) continue;
+      range.begin = std::min(range.begin, i);
+      range.end = i + 1;
+    }
+    near_region_.push_back(range);
+  }
 }
 
 }  // namespace tactus::contact

@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/solid.hpp"
+
 namespace tactus::contact {
 namespace {
 
-geometry::Box box_at(const Body& body, const Pose& base_from_body) {
-  const geometry::Box& local = body.tree().box();
-  const Vector3 centre = base_from_body * local.centre();
-  const Vector3 half = base_from_body.linear().cwiseAbs() * (0.5 * local.size());
-  return {centre - half, centre + half};
-}
+geometry::Box box_at(const Body& body, const Pose& base_from_body) { return moved_box(body.tree().box(), base_from_body); }
 
 bool inside(const Body& body, const Vector3& p) {
   if (!body.tree().box().contains(p)) return false;

@@ -6,6 +6,7 @@
 namespace tactus::contact {
 namespace {
 
+constexpr double relative_detail = 0.4;  // of the reach or the depth asked for
 constexpr double field_spacing = 0.001;
 constexpr double field_border = 0.01;
 constexpr std::size_t field_samples = 1'000'000;
@@ -28,15 +29,23 @@ bool TargetContact::leaf_hit(const Body& body, const SurfaceBall& leaf, const Po
   return field_.tree().within(geometry::transformed(body.triangle(leaf.triangle), target_from_body), threshold) || field_.tree().contains(centre);
 }
 
-/// Goes through the body's balls, deepest detail only where the target is near: a ball is passed over when it is at least half as far from the threshold as its centre.
+/// Goes through the body's balls, deepest detail only where the target is near: a ball is passed over when its centre is a little farther from the threshold
+/// than its radius; a reach much wider than a ball takes the ball for its part of the surface, which errs to a hit, and a depth much greater gives it up, which errs to none.
 TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_from_body, double threshold) const {
   const std::vector<SurfaceBall>& balls = body.balls();
+  const double detail = std::abs(threshold) > margin_ ? relative_detail * std::abs(threshold) : 0.0;
   double lowest = 1e300;
   for (int i = 0; i < static_cast<int>(balls.size());) {
     const SurfaceBall& ball = balls[i];
     const geometry::DistanceBounds bounds = field_.bounds(target_from_body * ball.centre);
     const double lower = bounds.lower - ball.radius;
-    if (lower > threshold && (lower >= lowest || ball.radius <= 0.5 * (bounds.lower - threshold))) {
+    if (lower > threshold && (lower >= lowest || ball.radius <= 0.8 * (bounds.lower - threshold))) {
+      lowest = std::min(lowest, lower);
+      i = ball.next;
+      continue;
+    }
+    if (ball.radius < detail && ball.triangle < 0) {
+      if (threshold > 0.0) return {true, 0.0};
       lowest = std::min(lowest, lower);
       i = ball.next;
       continue;
@@ -60,6 +69,11 @@ bool TargetContact::target_inside(const Body& body, const Pose& target_from_body
 std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, const Pose& base_from_target, double threshold,
                                        std::size_t from, std::size_t to) const {
   const Pose target_from_base = base_from_target.inverse();
+  const std::size_t none = to;
+  if (threshold < BodyPath::region_margin) {
+    from = std::max(from, path.near_region(body).begin);
+    to = std::min(to, path.near_region(body).end);
+  }
   for (std::size_t i = from; i < to;) {
     const Pose target_from_body = target_from_base * path.base_from_body(i, body);
     const Reach at = reach(bodies_->body(body), target_from_body, threshold);
@@ -67,7 +81,7 @@ std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, c
     const double free_until = path.travelled(i, body) + at.clearance;
     for (++i; i < to && path.travelled(i, body) < free_until;) ++i;
   }
-  return to;
+  return none;
 }
 
 std::optional<std::size_t> TargetContact::first_reach(const BodyPath& path, const Pose& base_from_target, double threshold,
@@ -103,6 +117,36 @@ std::optional<std::size_t> TargetContact::first_certain_contact(const BodyPath& 
 ContactInterval TargetContact::first_contact_interval(const BodyPath& path, const Pose& base_from_target, double radius) const {
   return {first_reach(path, base_from_target, radius + margin_, 1).value_or(path.size()),
           first_certain_contact(path, base_from_target, radius).value_or(path.size())};
+}
+
+Nearest TargetContact::nearest(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const {
+  Nearest result;
+  const Pose target_from_base = base_from_target.inverse();
+  for (std::size_t body = 0; body < bodies_->size(); ++body) {
+    const BodyPath::Range& near = path.near_region(body);
+    if (waypoint < near.begin || waypoint >= near.end) continue;
+    const Pose target_from_body = target_from_base * path.base_from_body(waypoint, body);
+    const std::vector<SurfaceBall>& balls = bodies_->body(body).balls();
+    for (int i = 0; i < static_cast<int>(balls.size());) {
+      const SurfaceBall& ball = balls[i];
+      const Vector3 centre = target_from_body * ball.centre;
+      const geometry::DistanceBounds bounds = field_.bounds(centre);
+      if (bounds.lower - ball.radius >= result.distance || (ball.triangle >= 0 && bounds.lower >= result.distance)) {
+        i = ball.next;
+        continue;
+      }
+      if (ball.triangle >= 0) {
+        const double exact = field_.exact(centre);
+        if (exact < result.distance) result.distance = exact, result.point = centre;
+      }
+      ++i;
+    }
+  }
+  for (int d = 0; d < 3; ++d) {
+    constexpr double h = 1e-4;
+    result.gradient[d] = (field_.exact(result.point + h * Vector3::Unit(d)) - field_.exact(result.point - h * Vector3::Unit(d))) / (2.0 * h);
+  }
+  return result;
 }
 
 }  // namespace tactus::contact

@@ -13,6 +13,13 @@ struct ContactInterval {
   std::size_t latest = 0;    ///< the path's size: perhaps never
 };
 
+/// The point of the robot that is deepest in the target, or nearest to it.
+struct Nearest {
+  double distance = 1e300;   ///< signed, m: negative inside the target
+  Vector3 point = Vector3::Zero();   ///< on the robot, in the target's frame
+  Vector3 gradient = Vector3::Zero();  ///< of the signed distance there, in the target's frame
+};
+
 /// Answers the one question of the planner: at which waypoint of a motion does the robot first touch the target, were the target at this pose?
 ///
 /// Two solids are in contact when closer than the margin, or one inside the other; an open mesh is its surface. The first waypoint does not count. The answer is
@@ -41,6 +48,9 @@ class TargetContact {
 
   /// Whether the robot comes within `radius` (m) of the target at a waypoint; errs as `first_within`.
   bool within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target, double radius) const;
+
+  /// The deepest or nearest point at a waypoint, to a leaf's size, among the bodies near the region.
+  Nearest nearest(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const;
 
   const Mesh& target() const { return target_; }
   const geometry::DistanceField& field() const { return field_; }

@@ -73,7 +73,7 @@ TEST(Library, TheWayOutOfTheTargetIsStraightBack) {
   const Vector3 axis = task().frame().base_from_search.linear().col(2), from = task().base_from_tool(seated).translation();
   for (const JointVector& q : action->path) {
     const Vector3 moved = task().base_from_tool(q).translation() - from;
-    if (axis.dot(moved) > task().frame().standoff - 1e-4 - axis.dot(from - task().frame().base_from_search.translation())) {
+    if (axis.dot(moved) > task().frame().standoff + 1e-4 - axis.dot(from - task().frame().base_from_search.translation())) {
       EXPECT_LT((moved - axis.dot(moved) * axis).norm(), 1e-5);
     } else {
       break;

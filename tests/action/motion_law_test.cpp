@@ -103,7 +103,7 @@ TEST(Primitives, WhatTheWorldBlocksIsAsLongAsItIsFree) {
     ASSERT_NO_FATAL_FAILURE(expect_sound(*motion, task().options().motion.step));
     const double moved = task().base_from_tool(motion->path.back()).translation().y() - task().base_from_tool(q).translation().y();
     EXPECT_LT(moved, 0.013 + 1e-5);
-    towards += moved > 0.004;
+    towards += moved > 0.0065;  // the axes of the search frame are turned a little
   }
   EXPECT_EQ(towards, 1);
 }

@@ -103,8 +103,8 @@ INSTANTIATE_TEST_SUITE_P(EveryKind, HistoryLaw,
                          ::testing::Values(Case{"voxels", Kind::hierarchical, {.delta = 0}, 12},
                                            Case{"coarse_voxels", Kind::hierarchical, {.voxel_size = 0.009, .delta = 0}, 8},
                                            Case{"hand_over", Kind::hierarchical, {.roll_width = 0.6, .position_width = 0.06, .delta = 1900, .most_cells = 200}, 6},
-                                           Case{"cells", Kind::particles, {.roll_width = 0.6, .position_width = 0.06, .most_cells = 400}, 4},
-                                           Case{"fine_cells", Kind::particles, {.roll_width = 0.2, .position_width = 0.02, .most_cells = 150}, 4}),
+                                           Case{"cells", Kind::particles, {.roll_width = 0.6, .position_width = 0.06, .most_cells = 300}, 3},
+                                           Case{"fine_cells", Kind::particles, {.roll_width = 0.2, .position_width = 0.02, .most_cells = 150}, 3}),
                          [](const auto& chosen) { return chosen.param.name; });
 
 }  // namespace

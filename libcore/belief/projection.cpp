@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "belief/projection.hpp"
+
+#include <algorithm>
+
+namespace tactus::belief {
+namespace {
+
+constexpr int steps = 12;
+constexpr double close_enough = 0.0002;   // m
+constexpr double clear_by = 0.0002;       // m, where the robot was free
+constexpr double damping = 1e-8;          // m^2
+constexpr double longest_shift = 0.02;    // m in one step
+
+using Row = Eigen::Matrix<double, 1, 6>;
+
+/// How the signed distance at a point of the robot changes with x, y, z, roll, pitch, yaw of the target; fixed dimensions do not count.
+Row derivative(const Task& task, const PoseVector& v, const Pose& base_from_target, const contact::Nearest& nearest) {
+  const Vector3 gradient = base_from_target.linear() * nearest.gradient;
+  const Vector3 arm = base_from_target.linear() * nearest.point;
+  const Eigen::Matrix3d yaw = Eigen::AngleAxisd(v[5], Vector3::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d pitch = Eigen::AngleAxisd(v[4], Vector3::UnitY()).toRotationMatrix();
+  const std::array<Vector3, 3> axes{yaw * (pitch * Vector3::UnitX()), yaw * Vector3::UnitY(), Vector3::UnitZ()};
+  Row row;
+  for (int d = 0; d < 3; ++d) {
+    row[d] = -gradient[d];
+    row[d + 3] = -gradient.dot(axes[d].cross(arm));
+  }
+  for (int d = 0; d < 6; ++d)
+    if (task.scene().prior.width[d] <= 0.0) row[d] = 0.0;
+  return row;
+}
+
+/// What the history asks of a pose: one row for each contact not in touch and each free stretch that is not free.
+struct Demands {
+  std::vector<Row> rows;
+  std::vector<double> amounts;
+
+  void add(const Row& row, double amount) {
+    rows.push_back(row);
+    amounts.push_back(amount);
+  }
+};
+
+Demands demands_of(const Task& task, const std::vector<Trace>& history, const PoseVector& v) {
+  const contact::TargetContact& target = task.target_contact();
+  const Pose pose = geometry::pose_from(v);
+  Demands demands;
+  for (const Trace& trace : history) {
+    const std::size_t last = trace.bodies.size() - 1;
+    if (trace.contact) {
+      const contact::Nearest at_stop = target.nearest(trace.bodies, last, pose);
+      const double wanted = -close_enough;
+      if (at_stop.distance < 1.0) demands.add(derivative(task, v, pose, at_stop), wanted - at_stop.distance);
+    }
+    const auto hit = target.first_within(trace.bodies, pose, 0.0, 0);
+    if (!hit || (trace.contact && *hit == last)) continue;
+    std::size_t worst = *hit;
+    contact::Nearest deepest = target.nearest(trace.bodies, worst, pose);
+    for (std::size_t i = *hit + 1; i < trace.bodies.size() - (trace.contact ? 1 : 0); i += 3) {
+      const contact::Nearest at = target.nearest(trace.bodies, i, pose);
+      if (at.distance < deepest.distance) deepest = at, worst = i;
+    }
+    demands.add(derivative(task, v, pose, deepest), clear_by - deepest.distance);
+  }
+  return demands;
+}
+
+/// The least change of the pose that meets the demands in the sense of least squares, angles weighed by the target's size.
+PoseVector moved(const PoseVector& v, const Demands& demands, double lever) {
+  const auto count = static_cast<Eigen::Index>(demands.rows.size());
+  Eigen::MatrixXd a(count, 6);
+  Eigen::VectorXd b(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    a.row(i) = demands.rows[static_cast<std::size_t>(i)];
+    a.row(i).tail<3>() /= lever;
+    b[i] = demands.amounts[static_cast<std::size_t>(i)];
+  }
+  const Eigen::MatrixXd normal = a * a.transpose() + damping * Eigen::MatrixXd::Identity(count, count);
+  Eigen::Matrix<double, 6, 1> change = a.transpose() * normal.ldlt().solve(b);
+  const double size = change.norm();
+  if (size > longest_shift) change *= longest_shift / size;
+  PoseVector next = v;
+  for (int d = 0; d < 6; ++d) next[d] += d < 3 ? change[d] : change[d] / lever;
+  return next;
+}
+
+}  // namespace
+
+std::optional<Pose> projected(const Task& task, const std::vector<Trace>& history, PoseVector seed) {
+  const double lever = 0.5 * geometry::diameter(task.scene().target.mesh);
+  for (int step = 0; step < steps; ++step) {
+    const Pose pose = geometry::pose_from(seed);
+    if (std::all_of(history.rbegin(), history.rend(), [&](const Trace& trace) { return reproduces(task, trace, pose); })) {
+      if (task.scene().prior.contains(seed)) return pose;
+      return std::nullopt;
+    }
+    seed = moved(seed, demands_of(task, history, seed), lever);
+    if (!task.scene().prior.contains(seed, 0.02)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace tactus::belief
