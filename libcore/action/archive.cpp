@@ -33,7 +33,8 @@ std::vector<double> read_times(ByteReader& from, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     times.push_back(from.finite("times"));
     if (times[i] < (i == 0 ? 0.0 : times[i - 1]))
-      from.fail("times", std::to_string(times[i]) + " s at waypoint " + std::to_string(i), "times that do not run back");
+      from.fail("times", std::to_string(times[i]) + " s at waypoint " + std::to_string(i),
+                "times that do not run back");
   }
   return times;
 }
@@ -83,7 +84,8 @@ std::vector<std::uint8_t> save(const Action& action) {
   write_path(to, action.path);
   for (const double time : action.times) to.f64(time);
   to.u64(action.lead);
-  for (const double value : {action.length, action.full_cost, action.expected_cost, action.contact_probability}) to.f64(value);
+  for (const double value : {action.length, action.full_cost, action.expected_cost, action.contact_probability})
+    to.f64(value);
   write_pose(to, action.supposed_target);
   return to.sealed();
 }
@@ -92,15 +94,17 @@ Action restore(const Task& task, const std::uint8_t* bytes, std::size_t size) {
   ByteReader from(seal, "saved action", bytes, size);
   const int dof = task.scene().robot->dof();
   if (const std::uint32_t joints = from.u32("joints"); joints != static_cast<std::uint32_t>(dof))
-    throw support::Error(support::Status::wrong_scenario, "saved action: found one of a robot with " + std::to_string(joints) +
-                                                              " joints, expected " + std::to_string(dof));
+    throw support::Error(support::Status::wrong_scenario, "saved action: found one of a robot with " +
+                                                              std::to_string(joints) + " joints, expected " +
+                                                              std::to_string(dof));
   Action action;
   action.kind = read_kind(from, "kind");
   action.path = read_path(from, dof, 1, "path");
   action.times = read_times(from, action.path.size());
   action.lead = static_cast<std::size_t>(from.u64("lead"));
   if (action.lead >= action.path.size())
-    from.fail("lead", std::to_string(action.lead), "less than the " + std::to_string(action.path.size()) + " waypoints");
+    from.fail("lead", std::to_string(action.lead),
+              "less than the " + std::to_string(action.path.size()) + " waypoints");
   action.length = read_amount(from, "length");
   action.full_cost = read_amount(from, "cost");
   action.expected_cost = read_amount(from, "expected cost");

@@ -52,6 +52,7 @@ JointPath ActionLibrary::lead_in(const JointVector& q, const JointVector& start,
   const double step = task_.options().motion.step;
   const int tool_link = task_.scene().tool_link;
   JointPath path{q};
+  if (q == start) return path;
   Pose back = task_.base_from_tool(q);
   const Pose goal = task_.base_from_tool(start);
   const Vector3 axis = task_.frame().base_from_search.linear().col(2);

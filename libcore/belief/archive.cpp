@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "action/archive.hpp"
+
 #include <bit>
 #include <cmath>
 
-#include "action/archive.hpp"
 #include "belief/belief.hpp"
 #include "support/error.hpp"
 
@@ -37,8 +38,8 @@ class Fingerprint {
   std::uint64_t sum_ = 0;
 };
 
-/// Of the target, the tool, the prior, the joints, and the options that shape the belief. The robot's frames are left out: they come from sines that need not
-/// be the same to the last bit on every machine.
+/// Of the target, the tool, the prior, the joints, and the options that shape the belief. The robot's frames are left
+/// out: they come from sines that need not be the same to the last bit on every machine.
 std::uint64_t fingerprint(const Model& model) {
   const scene::Scene& scene = model.task->scene();
   const Options& options = model.options;
@@ -112,7 +113,8 @@ CellBelief read_cells(ByteReader& from, const Model& model) {
     }
     for (std::uint8_t& splits : cell.splits) {
       splits = from.u8("cell splits");
-      if (splits > most_splits) from.fail("cell splits", std::to_string(splits), "at most " + std::to_string(most_splits));
+      if (splits > most_splits)
+        from.fail("cell splits", std::to_string(splits), "at most " + std::to_string(most_splits));
     }
   }
   return CellBelief::restored(*model.task, model.options.cells, std::move(cells));
@@ -158,7 +160,8 @@ Belief Belief::restore(std::shared_ptr<const Model> model, const std::uint8_t* b
   ByteReader from(seal, "saved belief", bytes, size);
   if (from.u64("fingerprint") != fingerprint(*model))
     throw support::Error(support::Status::wrong_scenario,
-                         "saved belief: found one of another scenario, expected the same target, tool, prior, joints and belief options");
+                         "saved belief: found one of another scenario, expected the same target, tool, prior, joints "
+                         "and belief options");
   Belief belief(std::move(model));
   const Task& task = belief.task();
   belief.q_ = action::read_joints(from, task.scene().robot->dof(), "configuration");
@@ -166,7 +169,8 @@ Belief Belief::restore(std::shared_ptr<const Model> model, const std::uint8_t* b
   const std::size_t observations = from.count(8 + 4 + 1 + 8 + 8, "observations");
   for (std::size_t i = 0; i < observations; ++i) belief.history_.push_back(read_trace(from, task));
   const bool in_pose_phase = from.flag("phase");
-  if (!in_pose_phase && belief.model_->options.kind == Kind::particles) from.fail("phase", "voxels", "poses, the belief being of particles");
+  if (!in_pose_phase && belief.model_->options.kind == Kind::particles)
+    from.fail("phase", "voxels", "poses, the belief being of particles");
   if (in_pose_phase)
     belief.cells_.emplace(read_cells(from, belief.model()));
   else

@@ -98,8 +98,10 @@ std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) co
   return poses;
 }
 
-std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng) const {
+std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known) const {
   std::vector<Pose> poses;
+  for (const Pose& pose : known)
+    if (std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return reproduces(task(), trace, pose); })) poses.push_back(pose);
   for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count; ++i)
     if (const auto pose = cells_->draw(task(), history_, rng)) poses.push_back(*pose);
   if (poses.empty()) poses.push_back(geometry::pose_from(cells_->cells()[cells_->draw_cell(rng)].centre));

@@ -6,7 +6,8 @@
 namespace tactus::belief {
 namespace {
 
-constexpr int steps = 12;
+constexpr int steps = 8;
+constexpr std::size_t looks = 6;           // at waypoints along a stretch that should be free
 constexpr double close_enough = 0.0002;   // m
 constexpr double clear_by = 0.0002;       // m, where the robot was free
 constexpr double damping = 1e-8;          // m^2
@@ -55,11 +56,12 @@ Demands demands_of(const Task& task, const std::vector<Trace>& history, const Po
     }
     const auto hit = target.first_within(trace.bodies, pose, 0.0, 0);
     if (!hit || (trace.contact && *hit == last)) continue;
-    std::size_t worst = *hit;
-    contact::Nearest deepest = target.nearest(trace.bodies, worst, pose);
-    for (std::size_t i = *hit + 1; i < trace.bodies.size() - (trace.contact ? 1 : 0); i += 3) {
+    const std::size_t end = trace.bodies.size() - (trace.contact ? 1 : 0);
+    const std::size_t stride = std::max<std::size_t>(1, (end - *hit) / looks);
+    contact::Nearest deepest;
+    for (std::size_t i = *hit; i < end; i += stride) {
       const contact::Nearest at = target.nearest(trace.bodies, i, pose);
-      if (at.distance < deepest.distance) deepest = at, worst = i;
+      if (at.distance < deepest.distance) deepest = at;
     }
     demands.add(derivative(task, v, pose, deepest), clear_by - deepest.distance);
   }

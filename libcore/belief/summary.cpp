@@ -86,8 +86,9 @@ double brought_into(double angle, double centre, double half) {
   return std::clamp(scene::nearest_angle(angle, centre), centre - half, centre + half);
 }
 
-/// Descriptions of the pose's rotation of which one lies in the cell if any does: the usual one, the one turned over, and where a pitch of a quarter turn shows
-/// no more than the difference (or the sum) of roll and yaw, the one nearest to the cell's centre.
+/// Descriptions of the pose's rotation of which one lies in the cell if any does: the usual one, the one turned over,
+/// and where a pitch of a quarter turn shows no more than the difference (or the sum) of roll and yaw, the one nearest
+/// to the cell's centre.
 std::array<PoseVector, 3> descriptions(const Pose& pose, const PoseVector& centre, const PoseVector& half) {
   constexpr double pi = std::numbers::pi;
   const PoseVector v = geometry::pose_vector(pose);
@@ -99,7 +100,8 @@ std::array<PoseVector, 3> descriptions(const Pose& pose, const PoseVector& centr
   return {v, over, shared};
 }
 
-/// Whether some roll, pitch and yaw within `half` of the cell's centre give the pose: descriptions are brought into the cell, and compared as poses.
+/// Whether some roll, pitch and yaw within `half` of the cell's centre give the pose: descriptions are brought into the
+/// cell, and compared as poses.
 bool holds(const PoseVector& centre, const PoseVector& half, const Pose& pose) {
   for (int d = 0; d < 3; ++d)
     if (!(std::abs(pose.translation()[d] - centre[d]) <= half[d] + tolerance)) return false;

@@ -19,6 +19,7 @@ struct SurfaceBall {
   double radius = 0.0;   ///< m
   int next = 0;          ///< the node after this one's subtree, in depth-first order
   int triangle = -1;     ///< of a leaf: the triangle whose piece it holds; -1: an inner node
+  int shell = -1;        ///< of a leaf: the connected shell of that triangle
 };
 
 /// A rigid part of the robot that may touch the target: its triangles, and a tree of balls that covers its surface. Const, shared.
@@ -28,6 +29,7 @@ class Body {
   Body(const Mesh& mesh, double leaf_radius);
 
   const std::vector<SurfaceBall>& balls() const { return balls_; }      ///< depth-first, the root first
+  const std::vector<int>& leaves() const { return leaves_; }                ///< indices of the leaves among the balls
   const Corners& triangle(int index) const { return triangles_[index]; }
   const geometry::TriangleTree& tree() const { return tree_; }
   const geometry::Sphere& bounding_sphere() const { return sphere_; }
@@ -42,6 +44,7 @@ class Body {
   geometry::Sphere sphere_;
   std::vector<Corners> triangles_;
   std::vector<SurfaceBall> balls_;
+  std::vector<int> leaves_;
   std::shared_ptr<const geometry::DistanceField> field_;
 };
 

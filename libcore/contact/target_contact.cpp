@@ -9,6 +9,7 @@ namespace {
 constexpr double relative_detail = 0.4;  // of the reach or the depth asked for
 constexpr double field_spacing = 0.001;
 constexpr double field_border = 0.01;
+constexpr std::size_t leaf_stride = 31;      // of the first look for the nearest point
 constexpr std::size_t field_samples = 1'000'000;
 
 }  // namespace
@@ -26,7 +27,7 @@ bool TargetContact::leaf_hit(const Body& body, const SurfaceBall& leaf, const Po
   const Vector3 centre = target_from_body * leaf.centre;
   if (threshold < 0.0) return field_.exact(centre) < threshold;
   if (threshold > std::max(margin_, leaf.radius)) return field_.tree().distance(centre, threshold + 1.01 * leaf.radius) <= threshold + leaf.radius;
-  return field_.tree().within(geometry::transformed(body.triangle(leaf.triangle), target_from_body), threshold) || field_.tree().contains(centre);
+  return field_.tree().within(geometry::transformed(body.triangle(leaf.triangle), target_from_body), threshold);
 }
 
 /// Goes through the body's balls, deepest detail only where the target is near: a ball is passed over when its centre is a little farther from the threshold
@@ -35,6 +36,13 @@ TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_f
   const std::vector<SurfaceBall>& balls = body.balls();
   const double detail = std::abs(threshold) > margin_ ? relative_detail * std::abs(threshold) : 0.0;
   double lowest = 1e300;
+  std::uint64_t asked = 0;  // a shell that crosses nothing is inside or outside as a whole: one of its points is asked
+  const auto side_unknown = [&asked](int shell) {
+    if (shell >= 64) return true;
+    const bool first = (asked >> shell & 1) == 0;
+    asked |= std::uint64_t{1} << shell;
+    return first;
+  };
   for (int i = 0; i < static_cast<int>(balls.size());) {
     const SurfaceBall& ball = balls[i];
     const geometry::DistanceBounds bounds = field_.bounds(target_from_body * ball.centre);
@@ -53,6 +61,7 @@ TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_f
     if (ball.triangle >= 0) {
       if (bounds.upper < threshold) return {true, 0.0};
       if (lower <= threshold && leaf_hit(body, ball, target_from_body, threshold)) return {true, 0.0};
+      if (threshold >= 0.0 && bounds.lower < 0.0 && side_unknown(ball.shell) && field_.tree().contains(target_from_body * ball.centre)) return {true, 0.0};
       lowest = std::min(lowest, lower);
     }
     ++i;
@@ -127,6 +136,12 @@ Nearest TargetContact::nearest(const BodyPath& path, std::size_t waypoint, const
     if (waypoint < near.begin || waypoint >= near.end) continue;
     const Pose target_from_body = target_from_base * path.base_from_body(waypoint, body);
     const std::vector<SurfaceBall>& balls = bodies_->body(body).balls();
+    const std::vector<int>& leaves = bodies_->body(body).leaves();
+    for (std::size_t k = 0; k < leaves.size(); k += leaf_stride) {
+      const Vector3 centre = target_from_body * balls[leaves[k]].centre;
+      const double estimate = field_.bounds(centre).upper;
+      if (estimate < result.distance) result.distance = estimate, result.point = centre;
+    }
     for (int i = 0; i < static_cast<int>(balls.size());) {
       const SurfaceBall& ball = balls[i];
       const Vector3 centre = target_from_body * ball.centre;
@@ -136,16 +151,13 @@ Nearest TargetContact::nearest(const BodyPath& path, std::size_t waypoint, const
         continue;
       }
       if (ball.triangle >= 0) {
-        const double exact = field_.exact(centre);
-        if (exact < result.distance) result.distance = exact, result.point = centre;
+        const double estimate = bounds.upper > field_border ? 0.5 * (bounds.lower + bounds.upper) : field_.estimate(centre);
+        if (estimate < result.distance) result.distance = estimate, result.point = centre;
       }
       ++i;
     }
   }
-  for (int d = 0; d < 3; ++d) {
-    constexpr double h = 1e-4;
-    result.gradient[d] = (field_.exact(result.point + h * Vector3::Unit(d)) - field_.exact(result.point - h * Vector3::Unit(d))) / (2.0 * h);
-  }
+  result.gradient = field_.gradient(result.point);
   return result;
 }
 

@@ -49,7 +49,7 @@ class TargetContact {
   /// Whether the robot comes within `radius` (m) of the target at a waypoint; errs as `first_within`.
   bool within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target, double radius) const;
 
-  /// The deepest or nearest point at a waypoint, to a leaf's size, among the bodies near the region.
+  /// An estimate of the deepest or nearest point at a waypoint, to a leaf's size, among the bodies near the region. Nothing sound may rest on it.
   Nearest nearest(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const;
 
   const Mesh& target() const { return target_; }

@@ -61,6 +61,30 @@ DistanceBounds DistanceField::bounds(const Vector3& p) const {
   return {std::max(sample - error, tree_.box().distance(p)), sample + error};
 }
 
+double DistanceField::estimate(const Vector3& p) const {
+  std::size_t corner = 0, stride = 1;
+  std::array<std::size_t, 3> step{};
+  std::array<double, 3> part{};
+  for (int d = 0; d < 3; ++d) {
+    const double scaled = std::clamp((p[d] - origin_[d]) * inverse_spacing_, 0.0, last_[d]);
+    const double low = std::min(std::floor(scaled), last_[d] - 1.0);
+    part[d] = scaled - low;
+    corner += static_cast<std::size_t>(low) * stride;
+    step[d] = stride;
+    stride *= static_cast<std::size_t>(count_[d]);
+  }
+  const auto along_x = [&](std::size_t at) { return (1.0 - part[0]) * static_cast<double>(samples_[at]) + part[0] * static_cast<double>(samples_[at + step[0]]); };
+  const auto along_y = [&](std::size_t at) { return (1.0 - part[1]) * along_x(at) + part[1] * along_x(at + step[1]); };
+  return (1.0 - part[2]) * along_y(corner) + part[2] * along_y(corner + step[2]);
+}
+
+Vector3 DistanceField::gradient(const Vector3& p) const {
+  Vector3 result;
+  const double h = 0.5 * spacing_;
+  for (int d = 0; d < 3; ++d) result[d] = (estimate(p + h * Vector3::Unit(d)) - estimate(p - h * Vector3::Unit(d))) / (2.0 * h);
+  return result;
+}
+
 double DistanceField::exact(const Vector3& p) const {
   const double distance = tree_.distance(p);
   return tree_.contains(p) ? -distance : distance;

@@ -25,6 +25,12 @@ class DistanceField {
   /// Bounds at any point, some tens of ns. Inside the lattice they are at most 1.74 spacings apart.
   DistanceBounds bounds(const Vector3& p) const;
 
+  /// The signed distance interpolated between samples, without a bound on its error; clamped to the lattice.
+  double estimate(const Vector3& p) const;
+
+  /// The gradient of `estimate`.
+  Vector3 gradient(const Vector3& p) const;
+
   /// The exact signed distance, about 1 us.
   double exact(const Vector3& p) const;
 

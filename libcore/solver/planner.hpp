@@ -68,6 +68,7 @@ class Planner {
   PlannerOptions options_;
   std::shared_ptr<action::ActionLibrary> library_;
   support::Rng rng_;
+  std::vector<geometry::Pose> poses_;   ///< of the last planning call on poses
   std::unique_ptr<Policy> policy_;
   std::atomic<bool> cancelled_{false};
   PlannerStatistics statistics_;

@@ -50,7 +50,8 @@ class PoseState : public BeliefState {
       if (!motion) return;
       Choice choice = weigh(motion);
       const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
-      if (informs || !motion->anchored) result.push_back(std::move(choice));
+      const bool moves = !motion->anchored && choice.outcomes.front().waypoint == motion->path.size();
+      if (informs || moves) result.push_back(std::move(choice));
     };
     for (const MotionPtr& motion : problem_->anchored(q_)) consider(motion);
     for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);

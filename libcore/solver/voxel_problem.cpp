@@ -119,7 +119,8 @@ class VoxelState : public BeliefState {
     const BoxCounts counts(voxels_.possibly_occupied(), grid());
     const auto consider = [&](const MotionPtr& motion) {
       Choice choice = weigh(motion, counts);
-      if (choice.outcomes.size() > 1 || !motion->anchored) result.push_back(std::move(choice));
+      const bool moves = !motion->anchored && choice.outcomes.front().waypoint == motion->path.size();
+      if (choice.outcomes.size() > 1 || moves) result.push_back(std::move(choice));
     };
     for (const MotionPtr& motion : problem_->anchored(voxels_, q_)) consider(motion);
     for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);

@@ -100,7 +100,8 @@ void ByteReader::finish() const {
 }
 
 void ByteReader::fail(const char* field, const std::string& found, const std::string& expected) const {
-  throw Error(Status::bad_saved_state, std::string(object_) + ": " + field + ": found " + found + ", expected " + expected);
+  throw Error(Status::bad_saved_state,
+              std::string(object_) + ": " + field + ": found " + found + ", expected " + expected);
 }
 
 }  // namespace tactus::support

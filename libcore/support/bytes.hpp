@@ -34,8 +34,9 @@ class ByteWriter {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Reads what a `ByteWriter` wrote. Every read is checked against the end of the content, so that no bytes whatever make it read beyond, and
-/// every count against what is left, so that none makes the caller allocate more than a small multiple of the input.
+/// Reads what a `ByteWriter` wrote. Every read is checked against the end of the content, so that no bytes whatever
+/// make it read beyond, and every count against what is left, so that none makes the caller allocate more than a small
+/// multiple of the input.
 ///
 /// Throws `bad_saved_state` with the object's name and the field at fault. The bytes must outlive the reader.
 class ByteReader {
@@ -67,7 +68,8 @@ class ByteReader {
   const std::uint8_t* end_;
 };
 
-/// A 64-bit hash of bytes, the same on every machine. Differs for inputs of one length that differ in one word of eight bytes.
+/// A 64-bit hash of bytes, the same on every machine. Differs for inputs of one length that differ in one word of eight
+/// bytes.
 std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size);
 
 }  // namespace tactus::support

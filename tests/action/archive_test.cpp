@@ -81,7 +81,8 @@ TEST(SavedAction, AnyFlippedByteIsAnError) {
 TEST(SavedAction, OfAnyOtherLengthIsAnError) {
   const Bytes bytes = action::save(some_action(2));
   for (std::size_t size = 0; size < bytes.size(); size += 7)
-    EXPECT_EQ(status_of(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))), Status::bad_saved_state);
+    EXPECT_EQ(status_of(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))),
+              Status::bad_saved_state);
   Bytes longer = bytes;
   longer.push_back(0);
   EXPECT_EQ(status_of(longer), Status::bad_saved_state);
@@ -94,10 +95,12 @@ TEST(SavedAction, AnyBytesUnderAFittingChecksumAreRestoredOrRefused) {
   for (int i = 0; i < 1000; ++i) {
     Bytes changed = bytes;
     const std::size_t at = 20 + rng.below(i < 400 ? 24 : bytes.size() - 28);
-    for (std::size_t k = at; k < std::min(bytes.size() - 8, at + 1 + rng.below(8)); ++k) changed[k] = static_cast<std::uint8_t>(rng.below(256));
+    for (std::size_t k = at; k < std::min(bytes.size() - 8, at + 1 + rng.below(8)); ++k)
+      changed[k] = static_cast<std::uint8_t>(rng.below(256));
     const Status status = status_of(resealed(changed));
     refused += status != Status::ok;
-    EXPECT_TRUE(status == Status::ok || status == Status::bad_saved_state || status == Status::wrong_scenario) << static_cast<int>(status);
+    EXPECT_TRUE(status == Status::ok || status == Status::bad_saved_state || status == Status::wrong_scenario)
+        << static_cast<int>(status);
   }
   EXPECT_GT(refused, 200);
 }

@@ -31,7 +31,8 @@ void expect_executable(const Action& action, const JointVector& q, const action:
   ASSERT_EQ(action.path.front(), q);
   ASSERT_EQ(action.path.back(), motion.path.back());
   ASSERT_EQ(action.path.size(), action.lead + motion.path.size());
-  ASSERT_TRUE(std::equal(motion.path.begin(), motion.path.end(), action.path.begin() + static_cast<std::ptrdiff_t>(action.lead)));
+  ASSERT_TRUE(std::equal(motion.path.begin(), motion.path.end(),
+                         action.path.begin() + static_cast<std::ptrdiff_t>(action.lead)));
   ASSERT_EQ(action.kind, motion.kind);
   ASSERT_EQ(action.id, action::path_id(action.path));
   ASSERT_EQ(action.bodies.size(), action.path.size());
@@ -50,7 +51,9 @@ TEST(Library, RealisesEveryMotionFromWhereTheRobotIs) {
   JointVector q = task().scene().start;
   for (int i = 0; i < 24; ++i) {
     const std::vector<MotionPtr> near = library.primitives_at(q);
-    MotionPtr motion = i % 3 == 0 ? near[rng.below(near.size())] : i % 3 == 1 ? probes[rng.below(probes.size())] : nullptr;
+    MotionPtr motion = i % 3 == 0   ? near[rng.below(near.size())]
+                       : i % 3 == 1 ? probes[rng.below(probes.size())]
+                                    : nullptr;
     if (!motion) motion = action::insertion(task(), task().scene().prior.sample(rng), q);
     const auto action = library.realise(q, *motion, Deadline::unlimited());
     ASSERT_TRUE(action) << i;
@@ -70,10 +73,12 @@ TEST(Library, TheWayOutOfTheTargetIsStraightBack) {
   const auto action = library.realise(seated, *probe, Deadline::unlimited());
   ASSERT_TRUE(action);
   ASSERT_NO_FATAL_FAILURE(expect_executable(*action, seated, *probe));
-  const Vector3 axis = task().frame().base_from_search.linear().col(2), from = task().base_from_tool(seated).translation();
+  const Vector3 axis = task().frame().base_from_search.linear().col(2),
+                from = task().base_from_tool(seated).translation();
   for (const JointVector& q : action->path) {
     const Vector3 moved = task().base_from_tool(q).translation() - from;
-    if (axis.dot(moved) > task().frame().standoff + 1e-4 - axis.dot(from - task().frame().base_from_search.translation())) {
+    if (axis.dot(moved) >
+        task().frame().standoff + 1e-4 - axis.dot(from - task().frame().base_from_search.translation())) {
       EXPECT_LT((moved - axis.dot(moved) * axis).norm(), 1e-5);
     } else {
       break;
@@ -97,6 +102,8 @@ TEST(Library, FromTheMotionsOwnStartThereIsNoLead) {
   const auto action = library.realise(probe->path.front(), *probe, Deadline::unlimited());
   ASSERT_TRUE(action);
   ASSERT_NO_FATAL_FAILURE(expect_executable(*action, probe->path.front(), *probe));
+  EXPECT_EQ(action->lead, 0u);
+  EXPECT_EQ(action->path, probe->path);
 }
 
 TEST(Library, KeepsThePrimitivesOfAConfiguration) {
@@ -115,7 +122,8 @@ TEST(Library, IsSharedByThreads) {
   std::vector<std::thread> threads;
   for (auto& mine : seen)
     threads.emplace_back([&] {
-      for (int i = 0; i < 3; ++i) mine = library.primitives_at(task().scene().start + joints({-0.01 * i, 0, 0, 0, 0, 0}));
+      for (int i = 0; i < 3; ++i)
+        mine = library.primitives_at(task().scene().start + joints({-0.01 * i, 0, 0, 0, 0, 0}));
     });
   for (std::thread& thread : threads) thread.join();
   for (const auto& mine : seen) EXPECT_EQ(mine, seen[0]);

@@ -9,7 +9,8 @@
 #include "belief/small_task.hpp"
 #include "motion/path_laws.hpp"
 
-/// What holds of every motion of the search: free, inside the limits, no point of the robot moving more than the step, and costs that add up.
+/// What holds of every motion of the search: free, inside the limits, no point of the robot moving more than the step,
+/// and costs that add up.
 namespace tactus::test {
 namespace {
 
@@ -26,8 +27,10 @@ const action::Task& task() {
 /// Free configurations of the search: on the retreat plane and beside the region.
 JointVector random_free(Rng& rng) {
   for (;;) {
-    const Vector3 position(rng.uniform(-0.06, 0.06), rng.uniform(-0.06, 0.06), task().frame().standoff + rng.uniform(-0.02, 0.03));
-    if (const auto q = task().posture(task().frame().base_from_tool(position, rng.uniform(-0.8, 0.8)), task().home())) return *q;
+    const Vector3 position(rng.uniform(-0.06, 0.06), rng.uniform(-0.06, 0.06),
+                           task().frame().standoff + rng.uniform(-0.02, 0.03));
+    if (const auto q = task().posture(task().frame().base_from_tool(position, rng.uniform(-0.8, 0.8)), task().home()))
+      return *q;
   }
 }
 
@@ -101,7 +104,8 @@ TEST(Primitives, WhatTheWorldBlocksIsAsLongAsItIsFree) {
   int towards = 0;
   for (const MotionPtr& motion : action::primitives(task(), q)) {
     ASSERT_NO_FATAL_FAILURE(expect_sound(*motion, task().options().motion.step));
-    const double moved = task().base_from_tool(motion->path.back()).translation().y() - task().base_from_tool(q).translation().y();
+    const double moved =
+        task().base_from_tool(motion->path.back()).translation().y() - task().base_from_tool(q).translation().y();
     EXPECT_LT(moved, 0.013 + 1e-5);
     towards += moved > 0.0065;  // the axes of the search frame are turned a little
   }
@@ -117,7 +121,8 @@ TEST(Probes, AreSoundSetOutFromTheRetreatPlaneAndGoIntoTheRegion) {
     ASSERT_NO_FATAL_FAILURE(expect_sound(*motion, task().options().motion.step));
     EXPECT_TRUE(motion->anchored);
     EXPECT_NEAR((search_from_base * motion->base_from_start.translation()).z(), task().frame().standoff, 1e-5);
-    const double tip = (search_from_base * task().base_from_tool(motion->path.back()).translation()).z() + task().frame().tool_extent.high.z();
+    const double tip = (search_from_base * task().base_from_tool(motion->path.back()).translation()).z() +
+                       task().frame().tool_extent.high.z();
     EXPECT_GT(tip, task().frame().region.low.z());
     kinds.insert(motion->kind);
   }
@@ -154,7 +159,8 @@ TEST(Insertion, EndsSeatedGoingInAlongTheAxisInFineSteps) {
       EXPECT_LT(axis.dot(left), before);
       EXPECT_LT(geometry::angle_between(tool, seated), 1e-5);
       if (w > 0 && before < task().scene().target.approach_depth + 1e-5) {
-        EXPECT_LE(vertex_motion(task().known_world().model(), motion->path[w - 1], motion->path[w]), options.insertion_step * (1.0 + 1e-9));
+        EXPECT_LE(vertex_motion(task().known_world().model(), motion->path[w - 1], motion->path[w]),
+                  options.insertion_step * (1.0 + 1e-9));
       }
       before = axis.dot(left);
     }

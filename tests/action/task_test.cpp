@@ -56,7 +56,8 @@ TEST(Task, APostureIsFreeAndPutsTheToolThere) {
   const auto task = small_task();
   support::Rng rng(1);
   for (int i = 0; i < 50; ++i) {
-    const Vector3 position(rng.uniform(-0.04, 0.04), rng.uniform(-0.04, 0.04), task->frame().standoff - rng.uniform(0.0, 0.02));
+    const Vector3 position(rng.uniform(-0.04, 0.04), rng.uniform(-0.04, 0.04),
+                           task->frame().standoff - rng.uniform(0.0, 0.02));
     const Pose wanted = task->frame().base_from_tool(position, rng.uniform(-0.5, 0.5));
     const auto q = task->posture(wanted, task->home());
     ASSERT_TRUE(q);

@@ -36,7 +36,9 @@ Belief after_actions(const ModelPtr& model, int actions, std::uint64_t seed) {
   return belief;
 }
 
-Belief restored(const ModelPtr& model, const Bytes& bytes) { return Belief::restore(model, bytes.data(), bytes.size()); }
+Belief restored(const ModelPtr& model, const Bytes& bytes) {
+  return Belief::restore(model, bytes.data(), bytes.size());
+}
 
 std::string error_of(const ModelPtr& model, const Bytes& bytes, Status expected = Status::bad_saved_state) {
   try {
@@ -123,10 +125,15 @@ TEST(SavedBelief, KeepsItsHealth) {
 TEST(SavedBelief, OfAnotherScenarioIsNotTaken) {
   const Bytes bytes = Belief(model(Kind::hierarchical), task()->scene().start).save();
   error_of(model(Kind::particles), bytes, Status::wrong_scenario);
-  error_of(small_model(task(), Kind::hierarchical, {.voxel_size = 0.006, .delta = 1300, .most_cells = 200}), bytes, Status::wrong_scenario);
+  error_of(small_model(task(), Kind::hierarchical, {.voxel_size = 0.006, .delta = 1300, .most_cells = 200}), bytes,
+           Status::wrong_scenario);
   error_of(small_model(task(), Kind::hierarchical, {.delta = 1300, .most_cells = 201}), bytes, Status::wrong_scenario);
-  error_of(small_model(Kind::hierarchical, {.roll_width = 0.31, .position_width = 0.04, .delta = 1300, .most_cells = 200}), bytes, Status::wrong_scenario);
-  EXPECT_NO_THROW(restored(small_model(Kind::hierarchical, {.roll_width = 0.3, .position_width = 0.04, .delta = 1300, .most_cells = 200}), bytes));
+  error_of(
+      small_model(Kind::hierarchical, {.roll_width = 0.31, .position_width = 0.04, .delta = 1300, .most_cells = 200}),
+      bytes, Status::wrong_scenario);
+  EXPECT_NO_THROW(restored(
+      small_model(Kind::hierarchical, {.roll_width = 0.3, .position_width = 0.04, .delta = 1300, .most_cells = 200}),
+      bytes));
 }
 
 TEST(SavedBelief, AnyFlippedByteIsAnError) {
@@ -154,7 +161,8 @@ TEST(SavedBelief, OfAnyOtherLengthIsAnError) {
   EXPECT_THROW(Belief::restore(m, nullptr, 0), support::Error);
 }
 
-/// Changed by someone who knows how to write a checksum: restored or refused, never a crash, nor room made for lengths that are not there.
+/// Changed by someone who knows how to write a checksum: restored or refused, never a crash, nor room made for lengths
+/// that are not there.
 TEST(SavedBelief, AnyBytesUnderAFittingChecksumAreRestoredOrRefused) {
   Rng rng(10);
   for (const Kind kind : {Kind::hierarchical, Kind::particles}) {
@@ -164,7 +172,8 @@ TEST(SavedBelief, AnyBytesUnderAFittingChecksumAreRestoredOrRefused) {
     for (int i = 0; i < 400; ++i) {
       Bytes changed = bytes;
       const std::size_t at = 28 + rng.below(i < 200 ? 150 : bytes.size() - 36);
-      for (std::size_t k = at; k < std::min(bytes.size() - 8, at + 1 + rng.below(8)); ++k) changed[k] = static_cast<std::uint8_t>(rng.below(256));
+      for (std::size_t k = at; k < std::min(bytes.size() - 8, at + 1 + rng.below(8)); ++k)
+        changed[k] = static_cast<std::uint8_t>(rng.below(256));
       try {
         const Belief belief = restored(m, resealed(changed));
         EXPECT_GT(belief.summary().possibly_occupied + belief.summary().cells, 0u);
@@ -183,8 +192,8 @@ TEST(SavedBelief, ErrorsSayWhatIsWrong) {
   Bytes other = bytes, newer = bytes, nan = bytes, many = bytes, flipped = bytes;
   other[0] = 'X';
   newer[8] = 9;
-  for (std::size_t i = 28; i < 36; ++i) nan[i] = 0xff;          // the first joint
-  for (std::size_t i = 77; i < 85; ++i) many[i] = 0x7f;         // how many observations
+  for (std::size_t i = 28; i < 36; ++i) nan[i] = 0xff;   // the first joint
+  for (std::size_t i = 77; i < 85; ++i) many[i] = 0x7f;  // how many observations
   flipped[40] ^= 1;
   EXPECT_NE(error_of(m, other).find("magic"), std::string::npos);
   EXPECT_NE(error_of(m, newer).find("version"), std::string::npos);

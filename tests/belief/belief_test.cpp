@@ -38,7 +38,8 @@ Status status_of(const std::shared_ptr<const belief::Model>& model, const JointV
 /// A contact in mid-air, far in front of anything.
 void touch_nothing(Belief& belief) {
   const action::Action action =
-      action_along(*task(), {belief.configuration(), belief.configuration() - joints({0.004, 0, 0, 0, 0, 0}), belief.configuration() - joints({0.008, 0, 0, 0, 0, 0})});
+      action_along(*task(), {belief.configuration(), belief.configuration() - joints({0.004, 0, 0, 0, 0, 0}),
+                             belief.configuration() - joints({0.008, 0, 0, 0, 0, 0})});
   belief.step(action, {true, action.path.back()});
 }
 
@@ -97,10 +98,12 @@ TEST(Belief, AContradictionSetsTheHealthAndLeavesTheRest) {
 TEST(Belief, ATargetThatIsNowhereIsAContradiction) {
   Belief belief(model(Kind::particles), task()->scene().start);
   const geometry::Box region = task()->frame().region;
-  for (int i = 0; i < 60 && belief.health() == Health::good; ++i) {  // rake through all of the region in rows, feeling nothing
+  for (int i = 0; i < 60 && belief.health() == Health::good;
+       ++i) {  // rake through all of the region in rows, feeling nothing
     const double z = region.low.y() + i / 10 * 0.02;
     const double deep = 0.46, y = (i / 2 % 5 - 2) * 0.02;
-    const action::Action action = action_along(*task(), {joints({deep, y, z, 0, 0, 0}), joints({deep, y + 0.004, z, 0, 0, 0})});
+    const action::Action action =
+        action_along(*task(), {joints({deep, y, z, 0, 0, 0}), joints({deep, y + 0.004, z, 0, 0, 0})});
     belief.step(action, {false, action.path.back()});
   }
   EXPECT_EQ(belief.health(), Health::contradicted);

@@ -13,7 +13,8 @@ using belief::CellBelief;
 using support::Rng;
 
 const std::shared_ptr<const belief::Model>& model() {
-  static const auto made = small_model(belief::Kind::particles, {.roll_width = 0.4, .position_width = 0.04, .most_cells = 200});
+  static const auto made =
+      small_model(belief::Kind::particles, {.roll_width = 0.4, .position_width = 0.04, .most_cells = 200});
   return made;
 }
 
@@ -30,7 +31,8 @@ bool holds(const CellBelief& cells, const Cell& cell, const PoseVector& v) {
 PoseVector pose_in(const CellBelief& cells, const Cell& cell, Rng& rng) {
   PoseVector v = cell.centre;
   const PoseVector half = cells.half_width(cell);
-  for (std::size_t d = 0; d < 6; ++d) v[d] += half[d] * (rng.below(2) == 0 ? rng.uniform(-1.0, 1.0) : rng.below(2) == 0 ? -1.0 : 1.0);
+  for (std::size_t d = 0; d < 6; ++d)
+    v[d] += half[d] * (rng.below(2) == 0 ? rng.uniform(-1.0, 1.0) : rng.below(2) == 0 ? -1.0 : 1.0);
   return v;
 }
 
@@ -57,7 +59,8 @@ TEST(Cells, CoverThePriorExactly) {
   EXPECT_NEAR(volume, 0.04 * 0.04 * 0.4, 1e-12);
   for (int i = 0; i < 500; ++i) {
     const PoseVector v = random_pose(task().scene().prior, rng);
-    const auto in = std::count_if(cells.cells().begin(), cells.cells().end(), [&](const Cell& cell) { return holds(cells, cell, v); });
+    const auto in = std::count_if(cells.cells().begin(), cells.cells().end(),
+                                  [&](const Cell& cell) { return holds(cells, cell, v); });
     EXPECT_EQ(in, 1);
   }
 }
@@ -69,7 +72,8 @@ TEST(Cells, RadiusBoundsHowFarAPointOfTheTargetIsOff) {
     for (int i = 0; i < 300; ++i) {
       const Cell& cell = cells.cells()[rng.below(cells.cells().size())];
       const Pose centre = geometry::pose_from(cell.centre), other = geometry::pose_from(pose_in(cells, cell, rng));
-      for (const Vector3& p : task().scene().target.mesh.vertices) ASSERT_LE((centre * p - other * p).norm(), cells.radius(cell) + 1e-12);
+      for (const Vector3& p : task().scene().target.mesh.vertices)
+        ASSERT_LE((centre * p - other * p).norm(), cells.radius(cell) + 1e-12);
     }
   });
 }
@@ -80,7 +84,8 @@ TEST(Cells, NeverWiden) {
     observe(seed, 8, [&](const Belief& belief, const PoseVector&) {
       const CellBelief& after = belief.cells();
       for (const Cell& cell : after.cells()) {
-        const auto parent = std::find_if(before.cells().begin(), before.cells().end(), [&](const Cell& c) { return holds(before, c, cell.centre); });
+        const auto parent = std::find_if(before.cells().begin(), before.cells().end(),
+                                         [&](const Cell& c) { return holds(before, c, cell.centre); });
         ASSERT_NE(parent, before.cells().end());
         for (std::size_t d = 0; d < 6; ++d) ASSERT_GE(cell.splits[d], parent->splits[d]);
       }
@@ -95,7 +100,8 @@ TEST(Cells, AreDisjoint) {
     const CellBelief& cells = belief.cells();
     for (int i = 0; i < 50; ++i) {
       const PoseVector v = cells.cells()[rng.below(cells.cells().size())].centre;
-      const auto in = std::count_if(cells.cells().begin(), cells.cells().end(), [&](const Cell& cell) { return holds(cells, cell, v); });
+      const auto in = std::count_if(cells.cells().begin(), cells.cells().end(),
+                                    [&](const Cell& cell) { return holds(cells, cell, v); });
       ASSERT_EQ(in, 1);
     }
   });
@@ -113,7 +119,8 @@ TEST(Cells, MayReproduceAtEveryResolutionWhatAPoseInThemDid) {
         const double half = cells.half_width(cell)[d];
         cell.centre[d] = truth[d] + half * rng.uniform(-1.0, 1.0);
       }
-      EXPECT_TRUE(belief::may_reproduce(task(), trace, geometry::pose_from(cell.centre), cells.radius(cell))) << halvings;
+      EXPECT_TRUE(belief::may_reproduce(task(), trace, geometry::pose_from(cell.centre), cells.radius(cell)))
+          << halvings;
     }
   });
 }
@@ -125,8 +132,9 @@ TEST(Cells, WhatIsDroppedHoldsNoPoseThatReproducesTheHistory) {
     for (int i = 0; i < 400; ++i) {
       const PoseVector v = random_pose(task().scene().prior, rng);
       const Pose pose = geometry::pose_from(v);
-      const bool reproduced = std::all_of(belief.history().begin(), belief.history().end(),
-                                          [&](const belief::Trace& trace) { return belief::reproduces(task(), trace, pose); });
+      const bool reproduced =
+          std::all_of(belief.history().begin(), belief.history().end(),
+                      [&](const belief::Trace& trace) { return belief::reproduces(task(), trace, pose); });
       if (reproduced) {
         ASSERT_TRUE(belief.contains(pose));
       }

@@ -58,7 +58,8 @@ TEST(Contains, APoseWhosePitchIsPastAQuarterTurn) {
   Rng rng(2);
   const PoseVector centre{0.45, 0.0, 0.0, 0.1, pi - 0.05, 0.0};
   const Belief belief = about(centre, {0.0, 0.01, 0.0, 0.1, 0.1, 0.0});
-  for (int i = 0; i < 100; ++i) EXPECT_TRUE(belief.contains(geometry::pose_from(random_pose(belief.task().scene().prior, rng))));
+  for (int i = 0; i < 100; ++i)
+    EXPECT_TRUE(belief.contains(geometry::pose_from(random_pose(belief.task().scene().prior, rng))));
   PoseVector other = centre;
   other[4] += 0.2;
   EXPECT_FALSE(belief.contains(geometry::pose_from(other)));

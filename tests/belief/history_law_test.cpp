@@ -3,7 +3,8 @@
 
 #include "belief/plain_world.hpp"
 
-/// A correct observation never removes the true pose: random actions at random true poses, seen by a world that shares no contact code with the library.
+/// A correct observation never removes the true pose: random actions at random true poses, seen by a world that shares
+/// no contact code with the library.
 namespace tactus::test {
 namespace {
 
@@ -57,7 +58,8 @@ void expect_holds(const Belief& belief, const PlainWorld& world, const PoseVecto
 void expect_reproduced(const Belief& belief, const Pose& truth) {
   for (const belief::Trace& trace : belief.history()) {
     ASSERT_TRUE(belief::reproduces(belief.task(), trace, truth));
-    for (const double radius : {0.0, 1e-4, 0.002, 0.01}) ASSERT_TRUE(belief::may_reproduce(belief.task(), trace, truth, radius)) << radius;
+    for (const double radius : {0.0, 1e-4, 0.002, 0.01})
+      ASSERT_TRUE(belief::may_reproduce(belief.task(), trace, truth, radius)) << radius;
   }
 }
 
@@ -79,10 +81,12 @@ TEST_P(HistoryLaw, ACorrectObservationNeverRemovesTheTruth) {
     Belief belief(model, task.scene().start);
     for (int i = 0; i < 12; ++i) {
       const action::Action action = choose(belief, library, base_from_target, rng);
-      const double overshoot = rng.below(2) == 0 ? 0.0 : rng.uniform(0.0, 0.0009), halt = rng.below(4) == 0 ? rng.uniform() : 1.0;
+      const double overshoot = rng.below(2) == 0 ? 0.0 : rng.uniform(0.0, 0.0009),
+                   halt = rng.below(4) == 0 ? rng.uniform() : 1.0;
       const belief::Observation seen = world.execute(action, overshoot, halt);
       belief.step(action, seen);
-      ASSERT_NO_FATAL_FAILURE(expect_holds(belief, world, truth)) << "episode " << episode << ", action " << i << ", contact " << seen.contact;
+      ASSERT_NO_FATAL_FAILURE(expect_holds(belief, world, truth))
+          << "episode " << episode << ", action " << i << ", contact " << seen.contact;
       ++(seen.contact ? contacts : misses);
       ++(belief.phase() == Phase::voxels ? in_voxels : in_poses);
     }
@@ -99,13 +103,18 @@ TEST_P(HistoryLaw, ACorrectObservationNeverRemovesTheTruth) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryKind, HistoryLaw,
-                         ::testing::Values(Case{"voxels", Kind::hierarchical, {.delta = 0}, 12},
-                                           Case{"coarse_voxels", Kind::hierarchical, {.voxel_size = 0.009, .delta = 0}, 8},
-                                           Case{"hand_over", Kind::hierarchical, {.roll_width = 0.6, .position_width = 0.06, .delta = 1900, .most_cells = 200}, 6},
-                                           Case{"cells", Kind::particles, {.roll_width = 0.6, .position_width = 0.06, .most_cells = 300}, 3},
-                                           Case{"fine_cells", Kind::particles, {.roll_width = 0.2, .position_width = 0.02, .most_cells = 150}, 3}),
-                         [](const auto& chosen) { return chosen.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    EveryKind, HistoryLaw,
+    ::testing::Values(
+        Case{"voxels", Kind::hierarchical, {.delta = 0}, 12},
+        Case{"coarse_voxels", Kind::hierarchical, {.voxel_size = 0.009, .delta = 0}, 8},
+        Case{"hand_over",
+             Kind::hierarchical,
+             {.roll_width = 0.6, .position_width = 0.06, .delta = 1900, .most_cells = 200},
+             6},
+        Case{"cells", Kind::particles, {.roll_width = 0.6, .position_width = 0.06, .most_cells = 300}, 3},
+        Case{"fine_cells", Kind::particles, {.roll_width = 0.2, .position_width = 0.02, .most_cells = 150}, 3}),
+    [](const auto& chosen) { return chosen.param.name; });
 
 }  // namespace
 }  // namespace tactus::test

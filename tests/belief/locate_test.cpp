@@ -114,7 +114,8 @@ TEST(Locate, AllOfAFreePathIsFree) {
 }
 
 TEST(Step, GoesBackToTheLastFreeWaypointAfterAContactAndStaysWhereItStoppedWithout) {
-  const action::Action action = action_along(task(), {in_front(0.40), in_front(0.404), in_front(0.408), in_front(0.412), in_front(0.416)});
+  const action::Action action =
+      action_along(task(), {in_front(0.40), in_front(0.404), in_front(0.408), in_front(0.412), in_front(0.416)});
   const JointVector stop = between(action.path[3], action.path[4], 0.5);
   Belief touched(model(), action.path.front()), halted = touched;
   touched.step(action, {true, stop});

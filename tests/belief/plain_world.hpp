@@ -6,8 +6,8 @@
 
 namespace tactus::test {
 
-/// The world of a small task with its target at a hidden pose, as plainly as it can be written: it goes along a path in fine steps, and tests every pair of
-/// triangles at each.
+/// The world of a small task with its target at a hidden pose, as plainly as it can be written: it goes along a path in
+/// fine steps, and tests every pair of triangles at each.
 class PlainWorld {
  public:
   static constexpr int fineness = 16;  ///< steps from waypoint to waypoint
@@ -25,11 +25,13 @@ class PlainWorld {
 
   bool touches(const JointVector& q) const {
     return std::any_of(parts_.begin(), parts_.end(), [&](const reference::Part& part) {
-      return reference::touch({part.shape, robot::forward(*task_.scene().robot, q, part.link)}, target_, task_.options().contact_margin);
+      return reference::touch({part.shape, robot::forward(*task_.scene().robot, q, part.link)}, target_,
+                              task_.options().contact_margin);
     });
   }
 
-  /// Where the robot stops and what it feels. It goes on for up to `overshoot` metres after the first contact, and stops of itself at `halt` (0 .. 1) of the path.
+  /// Where the robot stops and what it feels. It goes on for up to `overshoot` metres after the first contact, and
+  /// stops of itself at `halt` (0 .. 1) of the path.
   belief::Observation execute(const action::Action& action, double overshoot = 0.0, double halt = 1.0) const {
     const auto last = static_cast<double>(action.path.size() - 1);
     const auto steps = static_cast<std::size_t>(halt * last * fineness);
@@ -50,7 +52,8 @@ class PlainWorld {
   std::size_t stop_after(const motion::JointPath& path, std::size_t contact, double overshoot) const {
     std::size_t stop = contact;
     while (stop < (path.size() - 1) * fineness &&
-           robot::motion_bound(*task_.scene().robot, task_.known_world().link_reach(), at(path, contact - 1), at(path, stop + 1)) <= overshoot)
+           robot::motion_bound(*task_.scene().robot, task_.known_world().link_reach(), at(path, contact - 1),
+                               at(path, stop + 1)) <= overshoot)
       ++stop;
     return stop;
   }

@@ -26,7 +26,8 @@ void add_quad(Mesh& mesh, std::int32_t a, std::int32_t b, std::int32_t c, std::i
   mesh.triangles.push_back({a, c, d});
 }
 
-void add_link(robot::RobotModel& model, const std::string& name, JointKind kind, const Vector3& axis, double reach, std::vector<Mesh> shapes) {
+void add_link(robot::RobotModel& model, const std::string& name, JointKind kind, const Vector3& axis, double reach,
+              std::vector<Mesh> shapes) {
   robot::Link link;
   link.name = name;
   link.parent = static_cast<int>(model.links.size()) - 1;
@@ -47,7 +48,8 @@ std::shared_ptr<const robot::RobotModel> gantry() {
   add_link(*model, "x", JointKind::prismatic, Vector3::UnitX(), 0.6, {});
   add_link(*model, "y", JointKind::prismatic, Vector3::UnitY(), 0.3, {});
   add_link(*model, "ram", JointKind::prismatic, Vector3::UnitZ(), 0.3, {box_at({0.1, 0.04, 0.04}, {-0.14, 0.0, 0.0})});
-  add_link(*model, "wrist", JointKind::revolute, Vector3::UnitX(), 3.3, {box_at({0.04, 0.03, 0.02}, {-0.055, 0.0, 0.0})});
+  add_link(*model, "wrist", JointKind::revolute, Vector3::UnitX(), 3.3,
+           {box_at({0.04, 0.03, 0.02}, {-0.055, 0.0, 0.0})});
   add_link(*model, "pitch", JointKind::revolute, Vector3::UnitY(), 1.0, {});
   add_link(*model, "hand", JointKind::revolute, Vector3::UnitZ(), 1.0, {});
   return model;
@@ -57,7 +59,8 @@ const action::MotionPtr& pick(const std::vector<action::MotionPtr>& motions, sup
   return motions[rng.below(motions.size())];
 }
 
-action::MotionPtr random_motion(const action::Task& task, action::ActionLibrary& library, const JointVector& q, support::Rng& rng) {
+action::MotionPtr random_motion(const action::Task& task, action::ActionLibrary& library, const JointVector& q,
+                                support::Rng& rng) {
   const auto kind = rng.below(4);
   if (kind == 0) return action::insertion(task, task.scene().prior.sample(rng), q);
   const std::vector<action::MotionPtr> motions =
@@ -73,10 +76,10 @@ std::vector<Mesh> tool_pieces() {
 
 Mesh socket() {
   Mesh mesh;
-  add_square(mesh, -0.012, 0.018);    // 0 .. 3: front
-  add_square(mesh, 0.012, 0.018);     // 4 .. 7: back
-  add_square(mesh, -0.012, 0.0065);   // 8 .. 11: mouth
-  add_square(mesh, 0.004, 0.0065);    // 12 .. 15: bottom
+  add_square(mesh, -0.012, 0.018);   // 0 .. 3: front
+  add_square(mesh, 0.012, 0.018);    // 4 .. 7: back
+  add_square(mesh, -0.012, 0.0065);  // 8 .. 11: mouth
+  add_square(mesh, 0.004, 0.0065);   // 12 .. 15: bottom
   add_quad(mesh, 4, 5, 6, 7);
   add_quad(mesh, 15, 14, 13, 12);
   for (std::int32_t i = 0; i < 4; ++i) {
@@ -115,7 +118,8 @@ std::shared_ptr<const belief::Model> small_model(belief::Kind kind, const SmallT
   return small_model(small_task(small), kind, small);
 }
 
-std::shared_ptr<const belief::Model> small_model(std::shared_ptr<const action::Task> task, belief::Kind kind, const SmallTask& small) {
+std::shared_ptr<const belief::Model> small_model(std::shared_ptr<const action::Task> task, belief::Kind kind,
+                                                 const SmallTask& small) {
   belief::Options options;
   options.kind = kind;
   options.voxel_size = small.voxel_size;
@@ -134,7 +138,8 @@ PoseVector random_pose(const scene::Prior& prior, support::Rng& rng) {
   return v;
 }
 
-action::Action random_action(const action::Task& task, action::ActionLibrary& library, const JointVector& q, support::Rng& rng) {
+action::Action random_action(const action::Task& task, action::ActionLibrary& library, const JointVector& q,
+                             support::Rng& rng) {
   for (int tries = 0; tries < 100; ++tries) {
     const action::MotionPtr motion = random_motion(task, library, q, rng);
     if (!motion) continue;
@@ -143,7 +148,8 @@ action::Action random_action(const action::Task& task, action::ActionLibrary& li
   throw std::runtime_error("no action in a hundred tries");
 }
 
-action::Action insertion_at(const action::Task& task, action::ActionLibrary& library, const JointVector& q, const Pose& base_from_target) {
+action::Action insertion_at(const action::Task& task, action::ActionLibrary& library, const JointVector& q,
+                            const Pose& base_from_target) {
   const action::MotionPtr motion = action::insertion(task, base_from_target, q);
   if (!motion) throw std::runtime_error("no insertion");
   const auto action = library.realise(q, *motion, support::Deadline::unlimited());

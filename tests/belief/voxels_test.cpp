@@ -43,7 +43,8 @@ TEST(VoxelModel, CoverReachesAVoxelCentreInsideTheTargetFromEveryPointOfIt) {
     for (const Vector3& p : mesh.vertices) {
       double nearest = 1e300;
       for (std::size_t v = 0; v < grid().size(); ++v)
-        if ((grid().centre(v) - pose * p).norm() < nearest && world.holds(grid().centre(v))) nearest = (grid().centre(v) - pose * p).norm();
+        if ((grid().centre(v) - pose * p).norm() < nearest && world.holds(grid().centre(v)))
+          nearest = (grid().centre(v) - pose * p).norm();
       ASSERT_LE(nearest, model()->voxels->cover);
     }
   }

@@ -59,7 +59,9 @@ TEST(Prior, HoldsNoPoseThatIsNotFinite) {
     }
 }
 
-TEST(Prior, CentralPoseIsThatOfItsCentre) { EXPECT_TRUE(prior.central_pose().isApprox(geometry::pose_from(prior.centre))); }
+TEST(Prior, CentralPoseIsThatOfItsCentre) {
+  EXPECT_TRUE(prior.central_pose().isApprox(geometry::pose_from(prior.centre)));
+}
 
 TEST(NearestAngle, IsTheSameAngleNoMoreThanHalfATurnAway) {
   Rng rng(2);
@@ -83,14 +85,17 @@ TEST(CellRadius, BoundsTheWayOfEveryPointOfABall) {
     const Pose about = geometry::pose_from(centre);
     for (int k = 0; k < 50; ++k) {
       PoseVector v = centre;
-      for (std::size_t d = 0; d < 6; ++d) v[d] += half[d] * (rng.below(2) == 0 ? rng.uniform(-1.0, 1.0) : rng.below(2) == 0 ? -1.0 : 1.0);
+      for (std::size_t d = 0; d < 6; ++d)
+        v[d] += half[d] * (rng.below(2) == 0 ? rng.uniform(-1.0, 1.0) : rng.below(2) == 0 ? -1.0 : 1.0);
       const Vector3 p = reach * Vector3(rng.normal(), rng.normal(), rng.normal()).normalized();
       ASSERT_LE((geometry::pose_from(v) * p - about * p).norm(), radius + 1e-12);
     }
   }
 }
 
-TEST(CellRadius, OfAPureShiftIsHalfItsDiagonal) { EXPECT_DOUBLE_EQ(cell_radius({0.03, 0.04, 0.0, 0.0, 0.0, 0.0}, 1.0), 0.05); }
+TEST(CellRadius, OfAPureShiftIsHalfItsDiagonal) {
+  EXPECT_DOUBLE_EQ(cell_radius({0.03, 0.04, 0.0, 0.0, 0.0, 0.0}, 1.0), 0.05);
+}
 
 }  // namespace
 }  // namespace tactus::scene

@@ -23,7 +23,8 @@ Scene random_scene(Rng& rng) {
     scene.prior.width[d] = rng.below(2) == 0 ? 0.0 : rng.uniform(0.0, d < 3 ? 0.2 : rng.below(4) == 0 ? 2.0 * pi : 0.6);
   }
   scene.target.approach_axis = Vector3(rng.normal(), rng.normal(), rng.normal()).normalized();
-  scene.target.target_from_seated = geometry::pose_from({0.01, 0.02, -0.03, rng.uniform(-3, 3), rng.uniform(-1, 1), rng.uniform(-3, 3)});
+  scene.target.target_from_seated =
+      geometry::pose_from({0.01, 0.02, -0.03, rng.uniform(-3, 3), rng.uniform(-1, 1), rng.uniform(-3, 3)});
   return scene;
 }
 
@@ -31,7 +32,8 @@ TEST(TargetRegion, HoldsEveryPointOfTheTargetAtEveryPoseOfThePrior) {
   Rng rng(1);
   for (int i = 0; i < 25; ++i) {
     const Scene scene = random_scene(rng);
-    const Pose frame_from_base = geometry::pose_from({0.1, 0.2, 0.3, rng.uniform(-3, 3), rng.uniform(-1, 1), rng.uniform(-3, 3)});
+    const Pose frame_from_base =
+        geometry::pose_from({0.1, 0.2, 0.3, rng.uniform(-3, 3), rng.uniform(-1, 1), rng.uniform(-3, 3)});
     const geometry::Box region = scene::target_region(scene, frame_from_base).inflated(1e-9);
     for (int k = 0; k < 400; ++k) {
       const Pose frame_from_target = frame_from_base * geometry::pose_from(random_pose(scene.prior, rng));
@@ -69,11 +71,14 @@ TEST(SearchFrame, TheToolAtStandoffIsClearOfTheRegion) {
   for (int i = 0; i < 25; ++i) {
     const Scene scene = random_scene(rng);
     const scene::SearchFrame frame = scene::search_frame(scene, 0.03);
-    const Pose search_from_tool = frame.base_from_search.inverse() * frame.base_from_tool({0.01, -0.02, frame.standoff});
+    const Pose search_from_tool =
+        frame.base_from_search.inverse() * frame.base_from_tool({0.01, -0.02, frame.standoff});
     double nearest = 1e300;
-    for (const Vector3& p : scene.tool.vertices) nearest = std::min(nearest, frame.region.low.z() - (search_from_tool * p).z());
+    for (const Vector3& p : scene.tool.vertices)
+      nearest = std::min(nearest, frame.region.low.z() - (search_from_tool * p).z());
     EXPECT_NEAR(nearest, 0.03, 1e-9);
-    for (const Vector3& p : scene.tool.vertices) EXPECT_TRUE(frame.tool_extent.inflated(1e-9).contains(frame.search_from_tool * p));
+    for (const Vector3& p : scene.tool.vertices)
+      EXPECT_TRUE(frame.tool_extent.inflated(1e-9).contains(frame.search_from_tool * p));
   }
 }
 

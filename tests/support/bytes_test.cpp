@@ -53,7 +53,8 @@ TEST(Bytes, ComeBackAsTheyWere) {
 /// Saved on one machine, restored on another: the layout is written down here.
 TEST(Bytes, AreLittleEndianWithMagicVersionAndLengthInFront) {
   const Bytes bytes = sample();
-  const Bytes head{'T', 'E', 'S', 'T', 'I', 'N', 'G', '!', 3, 0, 0, 0, 29, 0, 0, 0, 0, 0, 0, 0, 0xab, 4, 3, 2, 1, 8, 7, 6, 5, 4, 3, 2, 1};
+  const Bytes head{'T', 'E', 'S', 'T',  'I', 'N', 'G', '!', 3, 0, 0, 0, 29, 0, 0, 0, 0,
+                   0,   0,   0,   0xab, 4,   3,   2,   1,   8, 7, 6, 5, 4,  3, 2, 1};
   ASSERT_EQ(bytes.size(), 20u + 29u + 8u);
   EXPECT_TRUE(std::equal(head.begin(), head.end(), bytes.begin()));
 }

@@ -9,7 +9,8 @@ namespace {
 const std::vector<Problem> two{{"a.yaml:1: x", "-1", "a width >= 0"}, {"a.yaml:2: y", "nothing", "a number"}};
 
 TEST(Problems, AreALineEach) {
-  EXPECT_EQ(to_text(two), "a.yaml:1: x: found -1, expected a width >= 0\na.yaml:2: y: found nothing, expected a number");
+  EXPECT_EQ(to_text(two),
+            "a.yaml:1: x: found -1, expected a width >= 0\na.yaml:2: y: found nothing, expected a number");
   EXPECT_EQ(to_text({}), "");
 }
 

@@ -12,7 +12,9 @@ namespace {
 
 using Lines = std::vector<std::pair<LogLevel, std::string>>;
 
-void keep(LogLevel level, const char* message, void* context) { static_cast<Lines*>(context)->emplace_back(level, message); }
+void keep(LogLevel level, const char* message, void* context) {
+  static_cast<Lines*>(context)->emplace_back(level, message);
+}
 
 TEST(Log, GoesToTheSinkAndNowhereWithoutOne) {
   Lines lines;
