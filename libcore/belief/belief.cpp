@@ -12,7 +12,6 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr std::size_t tries_per_pose = 4;      // of draws that halve cells
 constexpr std::size_t samples_per_pose = 40;   // of draws from the prior
 
 }  // namespace
@@ -59,7 +58,8 @@ void Belief::step(const Action& action, const Observation& observation) {
     const std::size_t left = next.voxels_->possibly_occupied().count();
     possible = left > 0 && (left > model_->options.delta || next.hand_over());
   } else {
-    possible = next.cells_->update(task(), next.history_.back()) && next.cells_->refine(task(), next.history_);
+    possible = next.cells_->update(task(), next.history_.back()) &&
+               next.cells_->refine(task(), next.history_, [&next](const CellBelief&) { return next.is_goal(); });
   }
   if (!possible) {
     const JointVector q = next.q_;
@@ -102,7 +102,7 @@ std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::
   std::vector<Pose> poses;
   for (const Pose& pose : known)
     if (std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return reproduces(task(), trace, pose); })) poses.push_back(pose);
-  for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count; ++i)
+  for (std::size_t i = 0; i < count && poses.size() < count; ++i)
     if (const auto pose = cells_->draw(task(), history_, rng)) poses.push_back(*pose);
   if (poses.empty()) poses.push_back(geometry::pose_from(cells_->cells()[cells_->draw_cell(rng)].centre));
   return poses;

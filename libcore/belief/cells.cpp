@@ -107,8 +107,8 @@ std::optional<Pose> CellBelief::draw(const Task& task, const std::vector<Trace>&
   return projected(task, history, seed);
 }
 
-bool CellBelief::refine(const Task& task, const std::vector<Trace>& history) {
-  while (2 * cells_.size() <= options_.most) {
+bool CellBelief::refine(const Task& task, const std::vector<Trace>& history, const std::function<bool(const CellBelief&)>& enough) {
+  while (2 * cells_.size() <= options_.most && !(enough && enough(*this))) {
     double coarsest = 0.0;
     for (const Cell& cell : cells_) coarsest = std::max(coarsest, radius(cell));
     if (coarsest <= options_.finest_radius) break;

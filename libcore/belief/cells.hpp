@@ -21,7 +21,7 @@ struct CellOptions {
   double position = 0.01;        ///< initial full width, m
   double angle = 0.1;            ///< initial full width, rad
   std::size_t most = 4000;       ///< cells are split while there are fewer than half of these
-  double finest_radius = 0.0004; ///< m: no cell with a smaller radius is split
+  double finest_radius = 0.0008; ///< m: no cell with a smaller radius is split
 };
 
 /// Phase 2: a set of cells that covers every pose that may have given the observations. A cell goes only when no pose in it can have. A value.
@@ -39,7 +39,8 @@ class CellBelief {
   bool update(const Task& task, const Trace& trace);
 
   /// Splits cells, the coarsest first, while they are few, and tests the new ones against the whole history. False (and unchanged from there on) if that would leave none.
-  bool refine(const Task& task, const std::vector<Trace>& history);
+  /// Stops early when `enough` says so.
+  bool refine(const Task& task, const std::vector<Trace>& history, const std::function<bool(const CellBelief&)>& enough = {});
 
   /// A pose that reproduces the whole history exactly: a random one of a cell drawn by volume, brought into agreement with the history (see `projected`). None if that led nowhere.
   std::optional<Pose> draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const;

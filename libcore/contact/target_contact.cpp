@@ -25,7 +25,7 @@ TargetContact::TargetContact(std::shared_ptr<const RobotBodies> bodies, const Me
 /// Where the look-up leaves a leaf undecided. For a depth (threshold < 0) the leaf's centre speaks; for a wide reach its ball, which errs to a hit; else its triangle against the target's.
 bool TargetContact::leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body, double threshold) const {
   const Vector3 centre = target_from_body * leaf.centre;
-  if (threshold < 0.0) return field_.exact(centre) < threshold;
+  if (threshold < 0.0) return field_.tree().distance(centre, -threshold) >= -threshold && field_.tree().contains(centre);
   if (threshold > std::max(margin_, leaf.radius)) return field_.tree().distance(centre, threshold + 1.01 * leaf.radius) <= threshold + leaf.radius;
   return field_.tree().within(geometry::transformed(body.triangle(leaf.triangle), target_from_body), threshold);
 }

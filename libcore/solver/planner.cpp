@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/planner.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -88,6 +89,7 @@ Answer Planner::query(const belief::Belief& belief) {
     policy_.reset();
     return {Answer::Kind::goal_reached, nullptr};
   }
+  note_fruitless(belief);
   if (const auto node = followed(belief)) {
     statistics_.from_policy = true;
     Answer answer = act(belief, *node, deadline);
@@ -102,6 +104,14 @@ Answer Planner::query(const belief::Belief& belief) {
   statistics_.total_expansions += statistics_.expansions;
   statistics_.total_seconds += statistics_.seconds;
   return answer;
+}
+
+void Planner::note_fruitless(const belief::Belief& belief) {
+  const std::size_t size = belief.phase() == belief::Phase::voxels ? belief.voxels().possibly_occupied().count() : belief.cells().cells().size();
+  if (standing_.q.size() == 0 || size != standing_.size || belief.configuration() != standing_.q)
+    standing_ = {belief.configuration(), size, {}};
+  else if (!belief.history().empty())
+    standing_.fruitless.push_back(belief.history().back().action_id);
 }
 
 /// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed for it.
@@ -151,7 +161,8 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   };
   for (auto choice = next(); choice; choice = next()) {
     const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
-    if (auto made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited)) {
+    auto made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited);
+    if (made && std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
       made->expected_cost = search.q_value(node, *choice, ValueType::inadmissible);
       made->contact_probability = choices[*choice].contact_probability();
       statistics_.lower_bound = search.value(node, ValueType::admissible);

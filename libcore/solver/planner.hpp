@@ -68,6 +68,15 @@ class Planner {
   PlannerOptions options_;
   std::shared_ptr<action::ActionLibrary> library_;
   support::Rng rng_;
+  /// An action that left the belief and the configuration as they were is not handed out again until something changes.
+  void note_fruitless(const belief::Belief& belief);
+
+  struct Standing {
+    robot::JointVector q;
+    std::size_t size = 0;       ///< cells or voxels
+    std::vector<std::uint64_t> fruitless;
+  };
+  Standing standing_;
   std::vector<geometry::Pose> poses_;   ///< of the last planning call on poses
   std::unique_ptr<Policy> policy_;
   std::atomic<bool> cancelled_{false};
