@@ -12,6 +12,7 @@ namespace {
 using support::Error;
 using support::Status;
 
+constexpr std::size_t tries_per_pose = 2;      // of projections
 constexpr std::size_t samples_per_pose = 40;   // of draws from the prior
 
 }  // namespace
@@ -98,11 +99,11 @@ std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) co
   return poses;
 }
 
-std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known) const {
+std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known, const support::Deadline& deadline) const {
   std::vector<Pose> poses;
   for (const Pose& pose : known)
     if (std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return reproduces(task(), trace, pose); })) poses.push_back(pose);
-  for (std::size_t i = 0; i < count && poses.size() < count; ++i)
+  for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count && deadline.used_fraction() < 0.5; ++i)
     if (const auto pose = cells_->draw(task(), history_, rng)) poses.push_back(*pose);
   if (poses.empty()) poses.push_back(geometry::pose_from(cells_->cells()[cells_->draw_cell(rng)].centre));
   return poses;

@@ -6,6 +6,7 @@
 
 #include "belief/cells.hpp"
 #include "belief/voxels.hpp"
+#include "support/deadline.hpp"
 #include "support/rng.hpp"
 
 namespace tactus::belief {
@@ -79,7 +80,9 @@ class Belief {
   /// Up to `count` poses drawn from all over the cells that reproduce the whole history exactly (phase 2 only). Fewer, down to one, where they are hard to find;
   /// at worst a cell's centre.
   /// `known`: poses drawn for an earlier state of this belief; those that still hold are taken first.
-  std::vector<Pose> draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known = {}) const;
+  /// Stops early, with at least one pose, once half of a budget in seconds is used up.
+  std::vector<Pose> draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known = {},
+                         const support::Deadline& deadline = support::Deadline::unlimited()) const;
 
   /// Phase 1: up to `count` poses drawn from the prior that may have given the history if moved by no more than half a voxel's diagonal. Fewer, or none, where they are rare.
   std::vector<Pose> draw_feasible(std::size_t count, support::Rng& rng) const;

@@ -77,6 +77,7 @@ bool TargetContact::target_inside(const Body& body, const Pose& target_from_body
 
 std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, const Pose& base_from_target, double threshold,
                                        std::size_t from, std::size_t to) const {
+  if (from >= to) return to;
   const Pose target_from_base = base_from_target.inverse();
   const std::size_t none = to;
   if (threshold < BodyPath::region_margin) {

@@ -139,7 +139,7 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
     if (model_->options.likelihood == belief::Likelihood::calibrated) feasible = belief.draw_feasible(model_->options.particles, rng_);
     start = std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)->start(belief.configuration(), belief.voxels());
   } else {
-    poses_ = belief.draw(model_->options.particles, rng_, poses_);
+    poses_ = belief.draw(model_->options.particles, rng_, poses_, deadline);
     start = std::make_shared<PoseProblem>(model_->task, library_, poses_, belief.summary().bits, options_.cost_per_bit)
                 ->start(belief.configuration());
   }
