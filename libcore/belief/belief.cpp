@@ -13,6 +13,7 @@ using support::Error;
 using support::Status;
 
 constexpr std::size_t tries_per_pose = 2;      // of projections
+constexpr std::size_t least_share = 3;         // of the poses wanted: so many are made up from near ones
 constexpr std::size_t samples_per_pose = 40;   // of draws from the prior
 
 }  // namespace
@@ -103,8 +104,12 @@ std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::
   std::vector<Pose> poses;
   for (const Pose& pose : known)
     if (std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return reproduces(task(), trace, pose); })) poses.push_back(pose);
-  for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count && deadline.used_fraction() < 0.5; ++i)
-    if (const auto pose = cells_->draw(task(), history_, rng)) poses.push_back(*pose);
+  std::vector<Pose> near;
+  for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count && deadline.used_fraction() < 0.5; ++i) {
+    const auto drawn = cells_->draw(task(), history_, rng);
+    if (drawn) (drawn->exact ? poses : near).push_back(drawn->pose);
+  }
+  for (std::size_t i = 0; i < near.size() && poses.size() < count / least_share; ++i) poses.push_back(near[i]);
   if (poses.empty()) poses.push_back(geometry::pose_from(cells_->cells()[cells_->draw_cell(rng)].centre));
   return poses;
 }

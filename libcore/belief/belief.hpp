@@ -77,8 +77,8 @@ class Belief {
   /// To 1e-9 m and rad; angles modulo whole turns, and in every way in which roll, pitch and yaw describe the same rotation.
   bool contains(const Pose& base_from_target) const;
 
-  /// Up to `count` poses drawn from all over the cells that reproduce the whole history exactly (phase 2 only). Fewer, down to one, where they are hard to find;
-  /// at worst a cell's centre.
+  /// Up to `count` poses drawn from all over the cells that reproduce the whole history exactly (phase 2 only). Where
+  /// they are hard to find fewer, made up to a third by poses that come near to that; at worst a cell's centre.
   /// `known`: poses drawn for an earlier state of this belief; those that still hold are taken first.
   /// Stops early, with at least one pose, once half of a budget in seconds is used up.
   std::vector<Pose> draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known = {},

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "belief/projection.hpp"
-
 namespace tactus::belief {
 CellBelief::CellBelief(const Task& task, const CellOptions& options) : options_(options) {
   for (const Vector3& v : task.scene().target.mesh.vertices) reach_ = std::max(reach_, v.norm());
@@ -99,7 +97,7 @@ std::size_t CellBelief::draw_cell(support::Rng& rng) const {
   return cells_.size() - 1;
 }
 
-std::optional<Pose> CellBelief::draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const {
+std::optional<Projection> CellBelief::draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const {
   const Cell& cell = cells_[draw_cell(rng)];
   const PoseVector half = half_width(cell);
   PoseVector seed = cell.centre;

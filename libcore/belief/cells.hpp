@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "belief/trace.hpp"
+#include "belief/projection.hpp"
 
 namespace tactus::belief {
 
@@ -42,8 +42,8 @@ class CellBelief {
   /// Stops early when `enough` says so.
   bool refine(const Task& task, const std::vector<Trace>& history, const std::function<bool(const CellBelief&)>& enough = {});
 
-  /// A pose that reproduces the whole history exactly: a random one of a cell drawn by volume, brought into agreement with the history (see `projected`). None if that led nowhere.
-  std::optional<Pose> draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const;
+  /// A random pose of a cell drawn by volume, brought towards agreement with the history (see `projected`). None if that led nowhere.
+  std::optional<Projection> draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const;
 
   /// A cell's index, drawn by volume.
   std::size_t draw_cell(support::Rng& rng) const;

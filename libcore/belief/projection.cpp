@@ -89,18 +89,19 @@ PoseVector moved(const PoseVector& v, const Demands& demands, double lever) {
 
 }  // namespace
 
-std::optional<Pose> projected(const Task& task, const std::vector<Trace>& history, PoseVector seed) {
+std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, PoseVector seed) {
   const double lever = 0.5 * geometry::diameter(task.scene().target.mesh);
   for (int step = 0; step < steps; ++step) {
     const Pose pose = geometry::pose_from(seed);
     if (std::all_of(history.rbegin(), history.rend(), [&](const Trace& trace) { return reproduces(task, trace, pose); })) {
-      if (task.scene().prior.contains(seed)) return pose;
+      if (task.scene().prior.contains(seed)) return Projection{pose, true};
       return std::nullopt;
     }
     seed = moved(seed, demands_of(task, history, seed), lever);
     if (!task.scene().prior.contains(seed, 0.02)) return std::nullopt;
   }
-  return std::nullopt;
+  if (!task.scene().prior.contains(seed)) return std::nullopt;
+  return Projection{geometry::pose_from(seed), false};
 }
 
 }  // namespace tactus::belief

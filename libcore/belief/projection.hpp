@@ -9,8 +9,14 @@ namespace tactus::belief {
 
 using geometry::PoseVector;
 
-/// A pose near `seed`, inside the prior, that reproduces the whole history exactly: Gauss-Newton steps in the prior's free dimensions bring the target into touch with the robot at every
-/// recorded contact, and out of the way where it was free. None if that does not succeed within a few steps.
-std::optional<Pose> projected(const Task& task, const std::vector<Trace>& history, PoseVector seed);
+/// A pose brought towards agreement with a history.
+struct Projection {
+  Pose pose = Pose::Identity();
+  bool exact = false;   ///< it reproduces the whole history; else it comes within a millimetre or so of that
+};
+
+/// A pose near `seed`, inside the prior: Gauss-Newton steps in the prior's free dimensions bring the target into touch with the robot at every recorded contact, and out of the way where it
+/// was free, until the pose reproduces the whole history or the steps are used up. None if that leads out of the prior.
+std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, PoseVector seed);
 
 }  // namespace tactus::belief

@@ -33,7 +33,8 @@ class TargetContact {
   std::optional<std::size_t> first_contact(const BodyPath& path, const Pose& base_from_target) const;
 
   /// The first waypoint >= `from` at which the robot, inflated by `radius` (m, >= 0), touches the target; 0 asks for crossing or containment, without a margin. Exact up to the
-  /// margin; wider reaches may err to an earlier waypoint, by up to two leaf radii of reach.
+  /// margin; wider reaches may err to an earlier waypoint, by up to
+  /// twice the larger of a leaf's radius and 0.4 of the reach.
   std::optional<std::size_t> first_within(const BodyPath& path, const Pose& base_from_target, double radius, std::size_t from = 1) const;
 
   /// Whether the robot touches the target at one waypoint.

@@ -136,6 +136,76 @@ TEST(Voxels, AContactRemovesWhatIsFartherThanTheTargetIsLong) {
   EXPECT_GT(contacts, 6);
 }
 
+TEST(Voxels, AContactRemovesNothingThatTheRobotEnteredOnlyAtIt) {
+  belief::Trace trace;
+  trace.contact = true;
+  trace.path = {joints({0.43, 0, 0, 0, 0, 0}), joints({0.434, 0, 0, 0, 0, 0}), joints({0.442, 0, 0, 0, 0, 0})};
+  trace.bodies = contact::BodyPath(task().bodies(), trace.path);
+  VoxelBelief voxels(model()->voxels);
+  voxels.update(task(), trace);
+  const reference::Shape tool{tool_pieces(), {}};
+  const auto covers = [&](std::size_t waypoint, std::size_t v) {
+    return reference::holds(tool, task().base_from_tool(trace.path[waypoint]).inverse() * grid().centre(v));
+  };
+  int free = 0, kept = 0;
+  for (std::size_t v = 0; v < grid().size(); ++v) {
+    const bool before = covers(0, v) || covers(1, v);
+    if (before) {
+      EXPECT_FALSE(voxels.possibly_occupied().test(v));
+    } else if (covers(2, v)) {
+      EXPECT_TRUE(voxels.possibly_occupied().test(v));
+      ++kept;
+    }
+    free += before;
+  }
+  EXPECT_GT(free, 0);
+  EXPECT_GT(kept, 0);
+}
+
+/// Where the edges of one mesh go through the triangles of another.
+void add_piercings(const reference::Placed& edges, const reference::Placed& faces, std::vector<Vector3>& points) {
+  for (const auto& e : edges.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const auto& f : faces.triangles) {
+        const Vector3 &p = e[i], &q = e[(i + 1) % 3], normal = (f[1] - f[0]).cross(f[2] - f[0]);
+        if (!test::segment_meets(p, q, f[0], f[1], f[2])) continue;
+        points.push_back(p + normal.dot(f[0] - p) / normal.dot(q - p) * (q - p));
+      }
+}
+
+TEST(Voxels, TheCandidatesOfEveryContactKeepTheVoxelsThatHoldItsPoints) {
+  Rng rng(7);
+  action::ActionLibrary library(task());
+  const reference::Shape target{{socket()}, {}}, tool{tool_pieces(), {}};
+  std::size_t checked = 0;
+  for (int episode = 0; episode < 12; ++episode) {
+    const Pose truth = geometry::pose_from(random_pose(task().scene().prior, rng));
+    const PlainWorld world(task(), truth);
+    VoxelBelief voxels(model()->voxels);
+    std::vector<std::vector<Vector3>> points;
+    for (int i = 0; i < 10; ++i) {
+      const action::Action action = random_action(task(), library, task().scene().start, rng);
+      const belief::Observation seen = world.execute(action, 0.0009);
+      voxels.update(task(), belief::trace_of(task(), action, seen, belief::locate(task(), action, seen)));
+      if (seen.contact) {
+        const reference::Placed there(target, truth), robot(tool, task().base_from_tool(seen.q));
+        points.emplace_back();
+        add_piercings(there, robot, points.back());
+        add_piercings(robot, there, points.back());
+      }
+      ASSERT_EQ(voxels.contacts().size(), points.size());
+      for (std::size_t c = 0; c < points.size(); ++c)
+        for (const Vector3& p : points[c]) {
+          const Bitset& candidates = voxels.contacts()[c].candidates;
+          const auto voxel = grid().voxel_at(p);
+          ASSERT_TRUE(voxel && candidates.test(*voxel)) << "contact " << c << " of " << points.size();
+          ++checked;
+        }
+    }
+  }
+  EXPECT_GT(checked, 100u);
+}
+
 TEST(Voxels, PastContactsRemoveMoreWhenTheirCandidatesGo) {
   VoxelBelief voxels(model()->voxels);
   Bitset both(grid().size()), one(grid().size());
