@@ -16,6 +16,8 @@ namespace {
 using support::Error;
 using support::Status;
 
+constexpr double noticeable_bits = 0.1;
+constexpr int patience = 3;                    // queries in which the belief hardly shrank
 constexpr std::size_t least_support = 8;       // poses below which a computed policy is not trusted
 constexpr std::array<std::pair<Solver, const char*>, 7> names{{{Solver::rtdp_bel, "rtdp-bel"},
                                                                 {Solver::rtdp_inad, "rtdp-inad"},
@@ -108,15 +110,21 @@ Answer Planner::query(const belief::Belief& belief) {
 
 void Planner::note_fruitless(const belief::Belief& belief) {
   const std::size_t size = belief.phase() == belief::Phase::voxels ? belief.voxels().possibly_occupied().count() : belief.cells().cells().size();
+  const double bits = belief.summary().bits;
+  const bool shrank = bits < standing_.bits - noticeable_bits;
+  const double reference = shrank ? bits : standing_.bits;
+  const int stalls = shrank ? 0 : standing_.stalls + 1;
   if (standing_.q.size() == 0 || size != standing_.size || belief.configuration() != standing_.q)
-    standing_ = {belief.configuration(), size, {}};
+    standing_ = {belief.configuration(), size, {}, reference, stalls};
   else if (!belief.history().empty())
     standing_.fruitless.push_back(belief.history().back().action_id);
+  standing_.bits = reference;
+  standing_.stalls = stalls;
 }
 
 /// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed for it.
 std::optional<int> Planner::followed(const belief::Belief& belief) {
-  if (!policy_ || greedy_of(options_.solver) || belief.history().size() != policy_->history + 1) return std::nullopt;
+  if (!policy_ || standing_.stalls >= patience || greedy_of(options_.solver) || belief.history().size() != policy_->history + 1) return std::nullopt;
   const belief::Trace& last = belief.history().back();
   if (last.action_id != policy_->action_id || last.outcome <= policy_->lead) return std::nullopt;
   const std::size_t waypoint = last.outcome - policy_->lead;
@@ -155,6 +163,8 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   const Search& search = policy_->search;
   const std::vector<Choice>& choices = search.choices(node);
   std::vector<bool> banned(choices.size(), false);
+  if (standing_.stalls >= patience && belief.phase() == belief::Phase::poses)
+    for (std::size_t i = 0; i < choices.size(); ++i) banned[i] = !choices[i].motion->anchored;
   const auto next = [&] {
     const auto rule = greedy_of(options_.solver);
     return rule ? greedy_choice(choices, *rule, banned) : search.best(node, banned);

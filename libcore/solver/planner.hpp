@@ -68,13 +68,16 @@ class Planner {
   PlannerOptions options_;
   std::shared_ptr<action::ActionLibrary> library_;
   support::Rng rng_;
-  /// An action that left the belief and the configuration as they were is not handed out again until something changes.
+  /// An action that left the belief and the configuration as they were is not handed out again until something changes; and after some queries in which the belief hardly shrank only anchored
+  /// motions are: the poses planned on promise more of small touches than the cells can take in.
   void note_fruitless(const belief::Belief& belief);
 
   struct Standing {
     robot::JointVector q;
     std::size_t size = 0;       ///< cells or voxels
     std::vector<std::uint64_t> fruitless;
+    double bits = 1e300;        ///< when the belief last shrank noticeably
+    int stalls = 0;             ///< queries since then
   };
   Standing standing_;
   std::vector<geometry::Pose> poses_;   ///< of the last planning call on poses
