@@ -6,7 +6,7 @@
 
 #include "json.h"
 
-enum { most_points = 400 };
+enum { most_points = 3000 };
 
 typedef tactus_status (*get_rows)(const tactus_belief*, double*, size_t, size_t*);
 
