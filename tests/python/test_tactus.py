@@ -151,4 +151,4 @@ def check_record(record, trial):
     assert all(len(frame["poses"]) == len(record["bodies"]) for frame in record["frames"])
     assert sum(frame["contact"] for frame in record["frames"]) == trial["contacts"]
     for step in record["steps"]:
-        assert len(step["belief"]["points"]) <= 400
+        assert len(step["belief"]["points"]) <= 3000
