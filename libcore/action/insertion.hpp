@@ -5,8 +5,9 @@
 
 namespace tactus::action {
 
-/// The insertion attempt at a target supposed at `base_from_target`: from the retreat plane along the approach axis to the seated pose, in finer steps and slower over the last
-/// `approach_depth`. An ordinary guarded motion. Null if the arm can't follow it.
+/// The insertion attempt at a target supposed at `base_from_target`: from the retreat plane along the approach axis to
+/// the seated pose, in finer steps and slower over the last `approach_depth`. An ordinary guarded motion. Null if the
+/// arm can't follow it.
 MotionPtr insertion(const Task& task, const Pose& base_from_target, const JointVector& near);
 
 }  // namespace tactus::action

@@ -20,7 +20,8 @@ std::uint64_t path_id(const JointPath& path) {
   return id;
 }
 
-Action make_action(const Task& task, Kind kind, JointPath path, std::size_t lead, const std::vector<motion::PacedSegment>& pace) {
+Action make_action(const Task& task, Kind kind, JointPath path, std::size_t lead,
+                   const std::vector<motion::PacedSegment>& pace) {
   const scene::Scene& scene = task.scene();
   Action action;
   action.kind = kind;
@@ -47,7 +48,8 @@ std::vector<MotionPtr> ActionLibrary::primitives_at(const JointVector& q) {
   return primitives_.try_emplace(key, std::move(motions)).first->second;
 }
 
-JointPath ActionLibrary::lead_in(const JointVector& q, const JointVector& start, const support::Deadline& deadline) const {
+JointPath ActionLibrary::lead_in(const JointVector& q, const JointVector& start,
+                                 const support::Deadline& deadline) const {
   const contact::KnownWorld& world = task_.known_world();
   const double step = task_.options().motion.step;
   const int tool_link = task_.scene().tool_link;
@@ -59,7 +61,8 @@ JointPath ActionLibrary::lead_in(const JointVector& q, const JointVector& start,
   const double retreat = axis.dot(back.translation() - goal.translation());
   if (retreat > 1e-6) {
     back.translation() -= retreat * axis;
-    if (const auto leg = motion::straight_tool_path(world, tool_link, q, back, step)) path = joined(std::move(path), *leg);
+    if (const auto leg = motion::straight_tool_path(world, tool_link, q, back, step))
+      path = joined(std::move(path), *leg);
   }
   if (const auto across = motion::straight_tool_path(world, tool_link, path.back(), goal, step))
     if ((across->back() - start).cwiseAbs().maxCoeff() < 1e-3) {
@@ -73,7 +76,8 @@ JointPath ActionLibrary::lead_in(const JointVector& q, const JointVector& start,
   return way ? joined(std::move(path), *way) : JointPath{};
 }
 
-std::optional<Action> ActionLibrary::realise(const JointVector& q, const Motion& motion, const support::Deadline& deadline) const {
+std::optional<Action> ActionLibrary::realise(const JointVector& q, const Motion& motion,
+                                             const support::Deadline& deadline) const {
   const MotionOptions& options = task_.options().motion;
   if (!motion.anchored) return make_action(task_, motion.kind, motion.path, 0, motion.pace);
   const JointPath lead = lead_in(q, motion.path.front(), deadline);

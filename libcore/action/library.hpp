@@ -10,16 +10,17 @@
 
 namespace tactus::action {
 
-/// What the robot executes, guarded: a joint path from its present configuration, with times. Const, shared between planner, belief and caller.
+/// What the robot executes, guarded: a joint path from its present configuration, with times. Const, shared between
+/// planner, belief and caller.
 struct Action {
-  std::uint64_t id = 0;        ///< of the path: equal paths have equal ids
+  std::uint64_t id = 0;  ///< of the path: equal paths have equal ids
   Kind kind = Kind::move;
   JointPath path;
-  std::vector<double> times;   ///< s, by waypoint
+  std::vector<double> times;  ///< s, by waypoint
   BodyPath bodies;
-  std::size_t lead = 0;        ///< waypoints before the motion proper: the way over the retreat plane
-  double length = 0.0;         ///< m that the tool frame goes if nothing is touched
-  double full_cost = 0.0;      ///< of going all the way
+  std::size_t lead = 0;              ///< waypoints before the motion proper: the way over the retreat plane
+  double length = 0.0;               ///< m that the tool frame goes if nothing is touched
+  double full_cost = 0.0;            ///< of going all the way
   double expected_cost = 0.0;        ///< as the planner saw it
   double contact_probability = 0.0;  ///< as the planner saw it
   Pose supposed_target = Pose::Identity();
@@ -35,8 +36,8 @@ class ActionLibrary {
   /// `primitives` from `q`, made once per configuration.
   std::vector<MotionPtr> primitives_at(const JointVector& q);
 
-  /// The executable action that takes the robot from `q` through `motion`: its way back and over the retreat plane first if it is anchored, by a planned path where the
-  /// straight one is not free. None if no free way is found.
+  /// The executable action that takes the robot from `q` through `motion`: its way back and over the retreat plane
+  /// first if it is anchored, by a planned path where the straight one is not free. None if no free way is found.
   std::optional<Action> realise(const JointVector& q, const Motion& motion, const support::Deadline& deadline) const;
 
  private:
@@ -51,6 +52,7 @@ class ActionLibrary {
 std::uint64_t path_id(const JointPath& path);
 
 /// An action along `path` with everything that follows from it.
-Action make_action(const Task& task, Kind kind, JointPath path, std::size_t lead, const std::vector<motion::PacedSegment>& pace);
+Action make_action(const Task& task, Kind kind, JointPath path, std::size_t lead,
+                   const std::vector<motion::PacedSegment>& pace);
 
 }  // namespace tactus::action

@@ -13,14 +13,15 @@ enum class Kind : std::int32_t {
   insertion = 5,  ///< from the retreat plane to the seated pose at a supposed target
 };
 
-/// A guarded motion of the search as the planner weighs it: a joint path, where the bodies are along it, and what it costs to get that far.
-/// Anchored motions (sweep, poke, insertion) set out from the retreat plane; getting there is added when they are chosen. Const, shared.
+/// A guarded motion of the search as the planner weighs it: a joint path, where the bodies are along it, and what it
+/// costs to get that far. Anchored motions (sweep, poke, insertion) set out from the retreat plane; getting there is
+/// added when they are chosen. Const, shared.
 struct Motion {
   Kind kind = Kind::move;
   bool anchored = false;
   JointPath path;
   BodyPath bodies;
-  std::vector<double> cost_to;          ///< by waypoint: of the tool's way from the first waypoint, without the fixed part
+  std::vector<double> cost_to;  ///< by waypoint: of the tool's way from the first waypoint, without the fixed part
   std::vector<motion::PacedSegment> pace;
   Pose base_from_start = Pose::Identity();  ///< of the tool
   Pose supposed_target = Pose::Identity();  ///< insertion: the target pose it was made for
@@ -37,7 +38,8 @@ MotionPtr truncated(const Task& task, const Motion& motion, std::size_t waypoint
 /// `then` put behind `first`, whose last waypoint it begins with; the joint is written once.
 JointPath joined(JointPath first, const JointPath& then);
 
-/// What it costs to take the tool from one pose to another over the retreat plane: straight back, across, and to the start. No free path is looked for.
+/// What it costs to take the tool from one pose to another over the retreat plane: straight back, across, and to the
+/// start. No free path is looked for.
 double transit_cost(const Task& task, const Pose& base_from_tool, const Pose& base_from_start);
 
 }  // namespace tactus::action

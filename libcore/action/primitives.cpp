@@ -8,10 +8,11 @@ namespace {
 
 /// One ray: the longest motion, and its prefixes at the shorter lengths. `extent(i)` is how far waypoint i is along it.
 template <typename Extent>
-void add_ray(const Task& task, Kind kind, const JointVector& q, const Pose& base_from_goal, std::vector<double> lengths, Extent extent,
-             std::vector<MotionPtr>& motions) {
+void add_ray(const Task& task, Kind kind, const JointVector& q, const Pose& base_from_goal, std::vector<double> lengths,
+             Extent extent, std::vector<MotionPtr>& motions) {
   const MotionOptions& options = task.options().motion;
-  auto path = motion::straight_tool_path(task.known_world(), task.scene().tool_link, q, base_from_goal, options.step, true);
+  auto path =
+      motion::straight_tool_path(task.known_world(), task.scene().tool_link, q, base_from_goal, options.step, true);
   if (!path || path->size() < 2) return;
   Motion longest;
   longest.kind = kind;
@@ -54,7 +55,9 @@ std::vector<MotionPtr> primitives(const Task& task, const JointVector& q) {
       Pose goal = base_from_tool;
       const Vector3 axis = task.frame().base_from_search.linear().col(2);
       goal.linear() = Eigen::AngleAxisd(sign * largest, axis).toRotationMatrix() * base_from_tool.linear();
-      const auto turned = [&](const JointVector& at) { return geometry::angle_between(base_from_tool, task.base_from_tool(at)); };
+      const auto turned = [&](const JointVector& at) {
+        return geometry::angle_between(base_from_tool, task.base_from_tool(at));
+      };
       add_ray(task, Kind::turn, q, goal, options.primitive_angles, turned, motions);
     }
   }

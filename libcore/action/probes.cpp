@@ -11,7 +11,8 @@ using geometry::Box;
 
 constexpr double beside = 0.005;  // m between the tool and the region where a sweep goes down
 
-/// Evenly spaced offsets over a range: its middle if it is narrower than the spacing, both ends inset by half a spacing otherwise.
+/// Evenly spaced offsets over a range: its middle if it is narrower than the spacing, both ends inset by half a spacing
+/// otherwise.
 std::vector<double> lines(double low, double high, double spacing, int most) {
   const int count = std::clamp(static_cast<int>(std::lround((high - low) / spacing)), 1, most);
   std::vector<double> offsets;
@@ -19,8 +20,10 @@ std::vector<double> lines(double low, double high, double spacing, int most) {
   return offsets;
 }
 
-/// Tool positions of a sweep along axis `along` (0 or 1) at `across` on the other: over the start, down to `z`, through the region.
-std::vector<Vector3> sweep_positions(const scene::SearchFrame& frame, const Box& region, int along, double sign, double across, double z) {
+/// Tool positions of a sweep along axis `along` (0 or 1) at `across` on the other: over the start, down to `z`, through
+/// the region.
+std::vector<Vector3> sweep_positions(const scene::SearchFrame& frame, const Box& region, int along, double sign,
+                                     double across, double z) {
   const double before = sign > 0.0 ? region.low[along] - frame.tool_extent.high[along] - beside
                                    : region.high[along] - frame.tool_extent.low[along] + beside;
   const double beyond = sign > 0.0 ? region.high[along] : region.low[along];
@@ -36,7 +39,8 @@ std::vector<Vector3> sweep_positions(const scene::SearchFrame& frame, const Box&
 
 }  // namespace
 
-MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3>& positions, double turn, const JointVector& near) {
+MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3>& positions, double turn,
+                          const JointVector& near) {
   const MotionOptions& options = task.options().motion;
   const auto start = task.posture(task.frame().base_from_tool(positions.front(), turn), near);
   if (!start) return nullptr;
@@ -47,7 +51,8 @@ MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3
   motion.pace = {{0, {options.approach_speed, options.acceleration, options.joint_acceleration}}};
   for (std::size_t i = 1; i < positions.size(); ++i) {
     const Pose goal = task.frame().base_from_tool(positions[i], turn);
-    const auto leg = motion::straight_tool_path(task.known_world(), task.scene().tool_link, motion.path.back(), goal, options.step);
+    const auto leg =
+        motion::straight_tool_path(task.known_world(), task.scene().tool_link, motion.path.back(), goal, options.step);
     if (!leg) return nullptr;
     motion.path = joined(std::move(motion.path), *leg);
   }

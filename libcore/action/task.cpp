@@ -46,12 +46,13 @@ Task::Task(scene::Scene scene, TaskOptions options)
       options_(std::move(options)),
       known_world_(std::make_unique<contact::KnownWorld>(with_tool(scene_), meshes(scene_.world), names(scene_.world))),
       bodies_(std::make_shared<contact::RobotBodies>(scene_.robot, scene_.tool_link, scene_.tool,
-                                                      scene::target_region(scene_, Pose::Identity()))),
+                                                     scene::target_region(scene_, Pose::Identity()))),
       target_contact_(std::make_unique<contact::TargetContact>(bodies_, scene_.target.mesh, options_.contact_margin)),
       frame_(scene::search_frame(scene_, options_.actions.standoff)) {
   const std::string collision = known_world_->describe_collision(scene_.start);
   if (!collision.empty())
-    throw Error(Status::start_in_collision, "robot.start: found " + collision + ", expected a configuration inside the limits and free of collisions");
+    throw Error(Status::start_in_collision, "robot.start: found " + collision +
+                                                ", expected a configuration inside the limits and free of collisions");
   home_ = find_home();
 }
 
@@ -69,17 +70,20 @@ std::optional<JointVector> Task::posture(const Pose& base_from_tool, const Joint
   return std::nullopt;
 }
 
-/// Of the arm's postures over the region's middle, the one from which most of its corners are reached, and of those the one nearest to the start.
+/// Of the arm's postures over the region's middle, the one from which most of its corners are reached, and of those the
+/// one nearest to the start.
 JointVector Task::find_home() const {
   support::Rng rng(1);
   const std::vector<Vector3> positions = standoff_positions(frame_);
   JointVector best;
   int most = 0;
-  for (const JointVector& q : robot::inverse_all(*scene_.robot, scene_.tool_link, frame_.base_from_tool(positions[0]), scene_.start, rng, 100)) {
+  for (const JointVector& q : robot::inverse_all(*scene_.robot, scene_.tool_link, frame_.base_from_tool(positions[0]),
+                                                 scene_.start, rng, 100)) {
     if (!known_world_->is_free(q)) continue;
     int reached = 0;
     for (const Vector3& position : positions)
-      if (motion::straight_tool_path(*known_world_, scene_.tool_link, q, frame_.base_from_tool(position), 0.05)) ++reached;
+      if (motion::straight_tool_path(*known_world_, scene_.tool_link, q, frame_.base_from_tool(position), 0.05))
+        ++reached;
     if (reached > most) {
       most = reached;
       best = q;
@@ -87,7 +91,8 @@ JointVector Task::find_home() const {
   }
   if (most == 0)
     throw Error(Status::prior_unreachable,
-                "prior: found no free configuration of the arm with the tool in front of the prior's centre, expected the prior within the arm's reach and "
+                "prior: found no free configuration of the arm with the tool in front of the prior's centre, expected "
+                "the prior within the arm's reach and "
                 "clear of the known world by actions.standoff");
   return best;
 }

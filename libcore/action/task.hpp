@@ -14,30 +14,31 @@ using geometry::Vector3;
 using motion::JointPath;
 using robot::JointVector;
 
-/// What a motion costs: metres of the tool frame, radians it turns, and a little for each action, so that no loop is free.
+/// What a motion costs: metres of the tool frame, radians it turns, and a little for each action, so that no loop is
+/// free.
 struct CostWeights {
   double metre = 1.0;
-  double radian = 0.05;   ///< per rad
+  double radian = 0.05;  ///< per rad
   double action = 0.005;
 };
 
 struct MotionOptions {
-  double step = 0.004;             ///< m that no point of the robot exceeds between waypoints
-  double insertion_step = 0.001;   ///< the same on the last straight motion
-  double speed = 0.25;             ///< of the tool in free transit, m/s
-  double approach_speed = 0.1;     ///< where contact is possible
+  double step = 0.004;            ///< m that no point of the robot exceeds between waypoints
+  double insertion_step = 0.001;  ///< the same on the last straight motion
+  double speed = 0.25;            ///< of the tool in free transit, m/s
+  double approach_speed = 0.1;    ///< where contact is possible
   double insertion_speed = 0.02;
-  double acceleration = 0.5;       ///< of the tool, m/s^2
-  double joint_acceleration = 4.0; ///< rad/s^2
+  double acceleration = 0.5;        ///< of the tool, m/s^2
+  double joint_acceleration = 4.0;  ///< rad/s^2
 };
 
 struct ActionOptions {
   std::vector<double> primitive_lengths{0.02, 0.06, 0.2};  ///< m
   std::vector<double> primitive_angles{0.2, 0.8};          ///< rad
   double probe_spacing = 0.04;                             ///< m between neighbouring sweeps
-  std::vector<double> probe_depth{0.035};                  ///< m behind the region's near side that the tool's tip sweeps at
+  std::vector<double> probe_depth{0.035};  ///< m behind the region's near side that the tool's tip sweeps at
   int insertion_candidates = 6;
-  double standoff = 0.03;                                  ///< m between the tool and the region on the retreat plane
+  double standoff = 0.03;  ///< m between the tool and the region on the retreat plane
 };
 
 struct TaskOptions {
@@ -48,10 +49,12 @@ struct TaskOptions {
   double stop_tolerance = 0.001;  ///< m of tool motion before the reported stop within which the first contact may lie
 };
 
-/// All that is const in a search: the scene, what collides with what, where motions are laid out, and the options. Shared by any number of threads.
+/// All that is const in a search: the scene, what collides with what, where motions are laid out, and the options.
+/// Shared by any number of threads.
 class Task {
  public:
-  /// Throws `start_in_collision` if the start is not free, `prior_unreachable` if the arm reaches no pose of the prior, `bad_mesh`.
+  /// Throws `start_in_collision` if the start is not free, `prior_unreachable` if the arm reaches no pose of the prior,
+  /// `bad_mesh`.
   Task(scene::Scene scene, TaskOptions options);
 
   const scene::Scene& scene() const { return scene_; }
@@ -60,12 +63,15 @@ class Task {
   const contact::RobotBodies& bodies() const { return *bodies_; }
   const contact::TargetContact& target_contact() const { return *target_contact_; }
   const scene::SearchFrame& frame() const { return frame_; }
-  const JointVector& home() const { return home_; }  ///< a free configuration at standoff, in the arm's posture for the search
+  const JointVector& home() const {
+    return home_;
+  }  ///< a free configuration at standoff, in the arm's posture for the search
 
   Pose base_from_tool(const JointVector& q) const;
   double cost(const motion::ToolTravel& travel) const;
 
-  /// A free configuration for the tool at `base_from_tool`, in the posture of `home`, turned by less than a turn from `near`.
+  /// A free configuration for the tool at `base_from_tool`, in the posture of `home`, turned by less than a turn from
+  /// `near`.
   std::optional<JointVector> posture(const Pose& base_from_tool, const JointVector& near) const;
 
  private:

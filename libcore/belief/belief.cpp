@@ -12,9 +12,9 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr std::size_t tries_per_pose = 2;      // of projections
-constexpr std::size_t least_share = 3;         // of the poses wanted: so many are made up from near ones
-constexpr std::size_t samples_per_pose = 40;   // of draws from the prior
+constexpr std::size_t tries_per_pose = 2;     // of projections
+constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from near ones
+constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
 
 }  // namespace
 
@@ -33,14 +33,17 @@ Belief::Belief(std::shared_ptr<const Model> model, const JointVector& q) : model
 void Belief::check_configuration(const JointVector& q, const char* argument) const {
   const int dof = task().scene().robot->dof();
   if (q.size() != dof)
-    throw Error(Status::invalid_argument, std::string(argument) + ": found " + std::to_string(q.size()) + " joints, expected " + std::to_string(dof));
+    throw Error(Status::invalid_argument, std::string(argument) + ": found " + std::to_string(q.size()) +
+                                              " joints, expected " + std::to_string(dof));
   for (int j = 0; j < dof; ++j)
     if (!std::isfinite(q[j]))
-      throw Error(Status::invalid_argument, std::string(argument) + "[" + std::to_string(j) + "] (" + task().scene().robot->joints[j].name +
+      throw Error(Status::invalid_argument, std::string(argument) + "[" + std::to_string(j) + "] (" +
+                                                task().scene().robot->joints[j].name +
                                                 "): found a value that is not finite, expected a joint position");
   const std::string collision = task().known_world().describe_collision(q);
   if (!collision.empty())
-    throw Error(Status::start_in_collision, std::string(argument) + ": found " + collision + ", expected a configuration inside the limits and free of collisions");
+    throw Error(Status::start_in_collision, std::string(argument) + ": found " + collision +
+                                                ", expected a configuration inside the limits and free of collisions");
 }
 
 void Belief::set_configuration(const JointVector& q) {
@@ -75,8 +78,9 @@ void Belief::step(const Action& action, const Observation& observation) {
 /// |PO| <= delta: the cells whose target may lie inside PO and that may have given every observation take over.
 bool Belief::hand_over() {
   const auto keep = [this](const Pose& pose, double radius) {
-    return !voxels_->excludes(pose, radius) &&
-           std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return may_reproduce(task(), trace, pose, radius); });
+    return !voxels_->excludes(pose, radius) && std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) {
+      return may_reproduce(task(), trace, pose, radius);
+    });
   };
   cells_.emplace(task(), model_->options.cells, keep);
   voxels_.reset();
@@ -86,8 +90,9 @@ bool Belief::hand_over() {
 bool Belief::is_goal() const {
   if (!cells_) return false;
   const Pose base_from_tool = task().base_from_tool(q_);
-  return std::all_of(cells_->cells().begin(), cells_->cells().end(),
-                     [&](const Cell& cell) { return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre)); });
+  return std::all_of(cells_->cells().begin(), cells_->cells().end(), [&](const Cell& cell) {
+    return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre));
+  });
 }
 
 std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) const {
@@ -95,15 +100,20 @@ std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) co
   const double radius = model_->voxels->grid.half_diagonal();
   for (std::size_t i = 0; i < samples_per_pose * count && poses.size() < count; ++i) {
     const Pose pose = task().scene().prior.sample(rng);
-    if (std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return may_reproduce(task(), trace, pose, radius); })) poses.push_back(pose);
+    if (std::all_of(history_.rbegin(), history_.rend(),
+                    [&](const Trace& trace) { return may_reproduce(task(), trace, pose, radius); }))
+      poses.push_back(pose);
   }
   return poses;
 }
 
-std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known, const support::Deadline& deadline) const {
+std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known,
+                               const support::Deadline& deadline) const {
   std::vector<Pose> poses;
   for (const Pose& pose : known)
-    if (std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) { return reproduces(task(), trace, pose); })) poses.push_back(pose);
+    if (std::all_of(history_.rbegin(), history_.rend(),
+                    [&](const Trace& trace) { return reproduces(task(), trace, pose); }))
+      poses.push_back(pose);
   std::vector<Pose> near;
   for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count && deadline.used_fraction() < 0.5; ++i) {
     const auto drawn = cells_->draw(task(), history_, rng);

@@ -12,15 +12,16 @@
 namespace tactus::belief {
 
 enum class Kind : std::int32_t { hierarchical = 1, particles = 2 };
-/// How a planner weighs the outcomes of a motion on voxels: by the paper's equations, or by the share of feasible poses that would be first touched there.
+/// How a planner weighs the outcomes of a motion on voxels: by the paper's equations, or by the share of feasible poses
+/// that would be first touched there.
 enum class Likelihood : std::int32_t { paper = 1, calibrated = 2 };
 enum class Phase : std::int32_t { voxels = 1, poses = 2 };
 enum class Health : std::int32_t { good = 0, contradicted = 1 };
 
 struct Options {
   Kind kind = Kind::hierarchical;
-  double voxel_size = 0.01;   ///< m
-  std::size_t delta = 3000;   ///< voxels: with so many or fewer in PO, poses take over
+  double voxel_size = 0.01;  ///< m
+  std::size_t delta = 3000;  ///< voxels: with so many or fewer in PO, poses take over
   CellOptions cells;
   Likelihood likelihood = Likelihood::calibrated;
   std::size_t particles = 200;  ///< poses drawn for planning
@@ -43,19 +44,22 @@ struct Summary {
   double volume = 0.0;                ///< m^3 of PO; 0 in the pose phase
   std::size_t cells = 0;              ///< 0 in the voxel phase
   double bits = 0.0;                  ///< log2 of how many task tolerances the belief spans
-  PoseVector mean{}, extent{};        ///< of the target's pose: middle (angles: circular mean) and full extents, x y z roll pitch yaw
+  PoseVector mean{},
+      extent{};  ///< of the target's pose: middle (angles: circular mean) and full extents, x y z roll pitch yaw
   std::array<double, 36> covariance{};  ///< of the same six, row-major
 };
 
-/// The robot's configuration and what is known of the target's pose: voxels first (phase 1), cells of poses after the hand-over (phase 2), or cells throughout.
-/// A correct observation never removes the true pose. A value: copies are independent. One thread at a time.
+/// The robot's configuration and what is known of the target's pose: voxels first (phase 1), cells of poses after the
+/// hand-over (phase 2), or cells throughout. A correct observation never removes the true pose. A value: copies are
+/// independent. One thread at a time.
 class Belief {
  public:
-  /// Throws `invalid_argument` for a NaN or a wrong number of joints, `start_in_collision` for a configuration that is not free.
+  /// Throws `invalid_argument` for a NaN or a wrong number of joints, `start_in_collision` for a configuration that is
+  /// not free.
   Belief(std::shared_ptr<const Model> model, const JointVector& q);
 
-  /// Takes in one observation. The configuration becomes the last free waypoint. An observation that contradicts everything sets the health, and is left out.
-  /// Throws as `locate`; then nothing has changed.
+  /// Takes in one observation. The configuration becomes the last free waypoint. An observation that contradicts
+  /// everything sets the health, and is left out. Throws as `locate`; then nothing has changed.
   void step(const Action& action, const Observation& observation);
 
   void set_configuration(const JointVector& q);
@@ -67,14 +71,15 @@ class Belief {
   const std::vector<Trace>& history() const { return history_; }
   Phase phase() const { return cells_ ? Phase::poses : Phase::voxels; }
   Health health() const { return health_; }
-  const VoxelBelief& voxels() const { return *voxels_; }   ///< phase 1 only
-  const CellBelief& cells() const { return *cells_; }      ///< phase 2 only
+  const VoxelBelief& voxels() const { return *voxels_; }  ///< phase 1 only
+  const CellBelief& cells() const { return *cells_; }     ///< phase 2 only
 
   /// At the present configuration every surviving pose has the tool seated within tolerance.
   bool is_goal() const;
 
-  /// Whether the belief still holds this pose: in the voxel phase every voxel centre inside the target there is possibly occupied; in the pose phase a cell holds it.
-  /// To 1e-9 m and rad; angles modulo whole turns, and in every way in which roll, pitch and yaw describe the same rotation.
+  /// Whether the belief still holds this pose: in the voxel phase every voxel centre inside the target there is
+  /// possibly occupied; in the pose phase a cell holds it. To 1e-9 m and rad; angles modulo whole turns, and in every
+  /// way in which roll, pitch and yaw describe the same rotation.
   bool contains(const Pose& base_from_target) const;
 
   /// Up to `count` poses drawn from all over the cells that reproduce the whole history exactly (phase 2 only). Where
@@ -84,12 +89,14 @@ class Belief {
   std::vector<Pose> draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known = {},
                          const support::Deadline& deadline = support::Deadline::unlimited()) const;
 
-  /// Phase 1: up to `count` poses drawn from the prior that may have given the history if moved by no more than half a voxel's diagonal. Fewer, or none, where they are rare.
+  /// Phase 1: up to `count` poses drawn from the prior that may have given the history if moved by no more than half a
+  /// voxel's diagonal. Fewer, or none, where they are rare.
   std::vector<Pose> draw_feasible(std::size_t count, support::Rng& rng) const;
 
   Summary summary() const;
 
-  /// The whole state as bytes, versioned and with a checksum; `restore` gives a belief that acts like this one. Throws `bad_saved_state`, `wrong_scenario`.
+  /// The whole state as bytes, versioned and with a checksum; `restore` gives a belief that acts like this one. Throws
+  /// `bad_saved_state`, `wrong_scenario`.
   std::vector<std::uint8_t> save() const;
   static Belief restore(std::shared_ptr<const Model> model, const std::uint8_t* bytes, std::size_t size);
 

@@ -15,7 +15,8 @@ CellBelief::CellBelief(const Task& task, const CellOptions& options) : options_(
   }
 }
 
-CellBelief::CellBelief(const Task& task, const CellOptions& options, const std::function<bool(const Pose&, double)>& keep)
+CellBelief::CellBelief(const Task& task, const CellOptions& options,
+                       const std::function<bool(const Pose&, double)>& keep)
     : CellBelief(task, options) {
   const scene::Prior& prior = task.scene().prior;
   std::array<int, 6> count{};
@@ -85,7 +86,8 @@ void CellBelief::split(const Cell& cell, std::vector<Cell>& halves) const {
 bool CellBelief::possible(const Task& task, const std::vector<Trace>& history, const Cell& cell) const {
   const Pose pose = geometry::pose_from(cell.centre);
   const double r = radius(cell);
-  return std::all_of(history.rbegin(), history.rend(), [&](const Trace& trace) { return may_reproduce(task, trace, pose, r); });
+  return std::all_of(history.rbegin(), history.rend(),
+                     [&](const Trace& trace) { return may_reproduce(task, trace, pose, r); });
 }
 
 std::size_t CellBelief::draw_cell(support::Rng& rng) const {
@@ -97,7 +99,8 @@ std::size_t CellBelief::draw_cell(support::Rng& rng) const {
   return cells_.size() - 1;
 }
 
-std::optional<Projection> CellBelief::draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const {
+std::optional<Projection> CellBelief::draw(const Task& task, const std::vector<Trace>& history,
+                                           support::Rng& rng) const {
   const Cell& cell = cells_[draw_cell(rng)];
   const PoseVector half = half_width(cell);
   PoseVector seed = cell.centre;
@@ -105,7 +108,8 @@ std::optional<Projection> CellBelief::draw(const Task& task, const std::vector<T
   return projected(task, history, seed);
 }
 
-bool CellBelief::refine(const Task& task, const std::vector<Trace>& history, const std::function<bool(const CellBelief&)>& enough) {
+bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
+                        const std::function<bool(const CellBelief&)>& enough) {
   while (2 * cells_.size() <= options_.most && !(enough && enough(*this))) {
     double coarsest = 0.0;
     for (const Cell& cell : cells_) coarsest = std::max(coarsest, radius(cell));

@@ -18,31 +18,36 @@ struct Cell {
 };
 
 struct CellOptions {
-  double position = 0.01;        ///< initial full width, m
-  double angle = 0.1;            ///< initial full width, rad
-  std::size_t most = 4000;       ///< cells are split while there are fewer than half of these
-  double finest_radius = 0.0008; ///< m: no cell with a smaller radius is split
+  double position = 0.01;         ///< initial full width, m
+  double angle = 0.1;             ///< initial full width, rad
+  std::size_t most = 4000;        ///< cells are split while there are fewer than half of these
+  double finest_radius = 0.0008;  ///< m: no cell with a smaller radius is split
 };
 
-/// Phase 2: a set of cells that covers every pose that may have given the observations. A cell goes only when no pose in it can have. A value.
+/// Phase 2: a set of cells that covers every pose that may have given the observations. A cell goes only when no pose
+/// in it can have. A value.
 class CellBelief {
  public:
-  /// All cells of the prior that `keep` says may hold the truth (pose of the centre, radius). The grid covers the prior exactly.
+  /// All cells of the prior that `keep` says may hold the truth (pose of the centre, radius). The grid covers the prior
+  /// exactly.
   CellBelief(const Task& task, const CellOptions& options, const std::function<bool(const Pose&, double)>& keep);
 
   const std::vector<Cell>& cells() const { return cells_; }
   PoseVector half_width(const Cell& cell) const;
-  double radius(const Cell& cell) const;   ///< m that a point of the target may be off the cell's centre
-  double volume(const Cell& cell) const;   ///< product of the free dimensions' widths
+  double radius(const Cell& cell) const;  ///< m that a point of the target may be off the cell's centre
+  double volume(const Cell& cell) const;  ///< product of the free dimensions' widths
 
-  /// Removes the cells that can't have given the trace. Returns whether any are left; if none would be, nothing is changed.
+  /// Removes the cells that can't have given the trace. Returns whether any are left; if none would be, nothing is
+  /// changed.
   bool update(const Task& task, const Trace& trace);
 
-  /// Splits cells, the coarsest first, while they are few, and tests the new ones against the whole history. False (and unchanged from there on) if that would leave none.
-  /// Stops early when `enough` says so.
-  bool refine(const Task& task, const std::vector<Trace>& history, const std::function<bool(const CellBelief&)>& enough = {});
+  /// Splits cells, the coarsest first, while they are few, and tests the new ones against the whole history. False (and
+  /// unchanged from there on) if that would leave none. Stops early when `enough` says so.
+  bool refine(const Task& task, const std::vector<Trace>& history,
+              const std::function<bool(const CellBelief&)>& enough = {});
 
-  /// A random pose of a cell drawn by volume, brought towards agreement with the history (see `projected`). None if that led nowhere.
+  /// A random pose of a cell drawn by volume, brought towards agreement with the history (see `projected`). None if
+  /// that led nowhere.
   std::optional<Projection> draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const;
 
   /// A cell's index, drawn by volume.
@@ -58,7 +63,7 @@ class CellBelief {
 
   CellOptions options_;
   PoseVector initial_half_{};
-  double reach_ = 0.0;   ///< m from the target's origin to its farthest vertex
+  double reach_ = 0.0;  ///< m from the target's origin to its farthest vertex
   std::vector<Cell> cells_;
 };
 

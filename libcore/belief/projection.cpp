@@ -7,15 +7,16 @@ namespace tactus::belief {
 namespace {
 
 constexpr int steps = 8;
-constexpr std::size_t looks = 6;           // at waypoints along a stretch that should be free
-constexpr double close_enough = 0.0002;   // m
-constexpr double clear_by = 0.0002;       // m, where the robot was free
-constexpr double damping = 1e-8;          // m^2
-constexpr double longest_shift = 0.02;    // m in one step
+constexpr std::size_t looks = 6;         // at waypoints along a stretch that should be free
+constexpr double close_enough = 0.0002;  // m
+constexpr double clear_by = 0.0002;      // m, where the robot was free
+constexpr double damping = 1e-8;         // m^2
+constexpr double longest_shift = 0.02;   // m in one step
 
 using Row = Eigen::Matrix<double, 1, 6>;
 
-/// How the signed distance at a point of the robot changes with x, y, z, roll, pitch, yaw of the target; fixed dimensions do not count.
+/// How the signed distance at a point of the robot changes with x, y, z, roll, pitch, yaw of the target; fixed
+/// dimensions do not count.
 Row derivative(const Task& task, const PoseVector& v, const Pose& base_from_target, const contact::Nearest& nearest) {
   const Vector3 gradient = base_from_target.linear() * nearest.gradient;
   const Vector3 arm = base_from_target.linear() * nearest.point;
@@ -68,7 +69,8 @@ Demands demands_of(const Task& task, const std::vector<Trace>& history, const Po
   return demands;
 }
 
-/// The least change of the pose that meets the demands in the sense of least squares, angles weighed by the target's size.
+/// The least change of the pose that meets the demands in the sense of least squares, angles weighed by the target's
+/// size.
 PoseVector moved(const PoseVector& v, const Demands& demands, double lever) {
   const auto count = static_cast<Eigen::Index>(demands.rows.size());
   Eigen::MatrixXd a(count, 6);
@@ -93,7 +95,8 @@ std::optional<Projection> projected(const Task& task, const std::vector<Trace>& 
   const double lever = 0.5 * geometry::diameter(task.scene().target.mesh);
   for (int step = 0; step < steps; ++step) {
     const Pose pose = geometry::pose_from(seed);
-    if (std::all_of(history.rbegin(), history.rend(), [&](const Trace& trace) { return reproduces(task, trace, pose); })) {
+    if (std::all_of(history.rbegin(), history.rend(),
+                    [&](const Trace& trace) { return reproduces(task, trace, pose); })) {
       if (task.scene().prior.contains(seed)) return Projection{pose, true};
       return std::nullopt;
     }

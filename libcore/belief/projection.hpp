@@ -12,11 +12,12 @@ using geometry::PoseVector;
 /// A pose brought towards agreement with a history.
 struct Projection {
   Pose pose = Pose::Identity();
-  bool exact = false;   ///< it reproduces the whole history; else it comes within a millimetre or so of that
+  bool exact = false;  ///< it reproduces the whole history; else it comes within a millimetre or so of that
 };
 
-/// A pose near `seed`, inside the prior: Gauss-Newton steps in the prior's free dimensions bring the target into touch with the robot at every recorded contact, and out of the way where it
-/// was free, until the pose reproduces the whole history or the steps are used up. None if that leads out of the prior.
+/// A pose near `seed`, inside the prior: Gauss-Newton steps in the prior's free dimensions bring the target into touch
+/// with the robot at every recorded contact, and out of the way where it was free, until the pose reproduces the whole
+/// history or the steps are used up. None if that leads out of the prior.
 std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, PoseVector seed);
 
 }  // namespace tactus::belief

@@ -57,7 +57,8 @@ void describe_cells(const CellBelief& cells, const Task& task, Summary& summary)
   std::copy(covariance.data(), covariance.data() + 36, summary.covariance.begin());
 }
 
-/// Phase 1 knows a volume only: the middle and the extents of PO stand for the position, the prior for the turns; the target's pose is taken to be uniform over them.
+/// Phase 1 knows a volume only: the middle and the extents of PO stand for the position, the prior for the turns; the
+/// target's pose is taken to be uniform over them.
 void describe_voxels(const VoxelBelief& voxels, const Task& task, Summary& summary) {
   const VoxelGrid& grid = voxels.model().grid;
   geometry::Box box;
@@ -67,12 +68,14 @@ void describe_voxels(const VoxelBelief& voxels, const Task& task, Summary& summa
   summary.volume = static_cast<double>(summary.possibly_occupied) * std::pow(grid.pitch(), 3);
   summary.mean = prior.centre;
   summary.extent = prior.width;
-  double poses = static_cast<double>(summary.possibly_occupied) / static_cast<double>(grid.size()) / tolerance_volume(task);
+  double poses =
+      static_cast<double>(summary.possibly_occupied) / static_cast<double>(grid.size()) / tolerance_volume(task);
   for (int d = 0; d < 6; ++d) {
     if (prior.width[d] > 0.0) poses *= prior.width[d];
     if (d < 3 && prior.width[d] > 0.0 && !box.empty()) {
       summary.extent[d] = std::min(prior.width[d], box.size()[d]);
-      summary.mean[d] = std::clamp(box.centre()[d], prior.centre[d] - 0.5 * prior.width[d], prior.centre[d] + 0.5 * prior.width[d]);
+      summary.mean[d] =
+          std::clamp(box.centre()[d], prior.centre[d] - 0.5 * prior.width[d], prior.centre[d] + 0.5 * prior.width[d]);
     }
     summary.covariance[d * 7] = summary.extent[d] * summary.extent[d] / 12.0;
   }
@@ -142,7 +145,8 @@ Summary Belief::summary() const {
   summary.phase = phase();
   summary.health = health_;
   summary.observations = history_.size();
-  summary.contacts = static_cast<std::size_t>(std::count_if(history_.begin(), history_.end(), [](const Trace& t) { return t.contact; }));
+  summary.contacts = static_cast<std::size_t>(
+      std::count_if(history_.begin(), history_.end(), [](const Trace& t) { return t.contact; }));
   if (cells_)
     describe_cells(*cells_, task(), summary);
   else

@@ -17,10 +17,12 @@ constexpr double tie = 1e-9;  // rad: passes of one path through the same config
 void check(const Task& task, const Observation& observation) {
   const int dof = task.scene().robot->dof();
   if (observation.q.size() != dof)
-    throw Error(Status::invalid_argument, "observation.joints: found " + std::to_string(observation.q.size()) + " values, expected " + std::to_string(dof));
+    throw Error(Status::invalid_argument, "observation.joints: found " + std::to_string(observation.q.size()) +
+                                              " values, expected " + std::to_string(dof));
   for (int j = 0; j < dof; ++j)
     if (!std::isfinite(observation.q[j]))
-      throw Error(Status::invalid_argument, "observation.joints[" + std::to_string(j) + "] (" + task.scene().robot->joints[j].name +
+      throw Error(Status::invalid_argument, "observation.joints[" + std::to_string(j) + "] (" +
+                                                task.scene().robot->joints[j].name +
                                                 "): found a value that is not finite, expected a joint position");
 }
 
@@ -28,7 +30,9 @@ double bound(const Task& task, const JointVector& a, const JointVector& b) {
   return task.known_world().displacement(a, b);
 }
 
-JointVector between(const JointVector& from, const JointVector& to, double fraction) { return from + fraction * (to - from); }
+JointVector between(const JointVector& from, const JointVector& to, double fraction) {
+  return from + fraction * (to - from);
+}
 
 /// The configuration `back` metres of motion before the stop on its segment; the segment's beginning if that is nearer.
 JointVector backed_off(const Task& task, const JointVector& from, const JointVector& stop, double back) {
@@ -53,18 +57,21 @@ Stop locate(const Task& task, const Action& action, const Observation& observati
     nearest = std::min(nearest, away);
     best = {i, fraction, 0};
   }
-  const JointVector on_path = best.segment == 0 ? path.front() : between(path[best.segment - 1], path[best.segment], best.fraction);
+  const JointVector on_path =
+      best.segment == 0 ? path.front() : between(path[best.segment - 1], path[best.segment], best.fraction);
   const double off = bound(task, on_path, observation.q), allowed = std::max(0.001, task.options().stop_tolerance);
   if (off > allowed)
     throw Error(Status::stop_off_path, "observation.joints: found a stop up to " + std::to_string(1000.0 * off) +
-                                           " mm off the action's path, expected at most " + std::to_string(1000.0 * allowed) +
+                                           " mm off the action's path, expected at most " +
+                                           std::to_string(1000.0 * allowed) +
                                            " mm; after a jog use set_configuration instead");
   if (!observation.contact) {
     best.last_free = best.segment == 0 || best.fraction >= 1.0 - 1e-9 ? best.segment : best.segment - 1;
     return best;
   }
   best.last_free = best.segment == 0 ? 0 : best.segment - 1;
-  while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < task.options().stop_tolerance) --best.last_free;
+  while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < task.options().stop_tolerance)
+    --best.last_free;
   return best;
 }
 
@@ -73,7 +80,9 @@ Trace trace_of(const Task& task, const Action& action, const Observation& observ
   trace.action_id = action.id;
   trace.kind = action.kind;
   trace.contact = observation.contact;
-  trace.outcome = observation.contact ? stop.segment : (stop.last_free + 1 == action.path.size() ? action.path.size() : stop.last_free);
+  trace.outcome = observation.contact
+                      ? stop.segment
+                      : (stop.last_free + 1 == action.path.size() ? action.path.size() : stop.last_free);
   trace.path.assign(action.path.begin(), action.path.begin() + static_cast<std::ptrdiff_t>(stop.last_free) + 1);
   if (observation.contact) {
     const JointVector free = backed_off(task, trace.path.back(), observation.q, task.options().stop_tolerance);

@@ -21,21 +21,25 @@ struct Observation {
 
 /// Where on an action's path an observation lies.
 struct Stop {
-  std::size_t segment = 0;     ///< between waypoints `segment - 1` and `segment`; 0: at the first waypoint
-  double fraction = 0.0;       ///< of that segment, in (0, 1]
-  std::size_t last_free = 0;   ///< the last waypoint that is certainly free: where the robot goes back to after a contact, and where it is without one
+  std::size_t segment = 0;    ///< between waypoints `segment - 1` and `segment`; 0: at the first waypoint
+  double fraction = 0.0;      ///< of that segment, in (0, 1]
+  std::size_t last_free = 0;  ///< the last waypoint that is certainly free: where the robot goes back to after a
+                              ///< contact, and where it is without one
 };
 
-/// Finds the stop. A contact is looked for from the path's beginning, a stop without contact from its end. Throws `stop_off_path` if the robot
-/// stopped farther from the path than any point of it may be off (1 mm or the stop tolerance), and `invalid_argument` for a NaN or a wrong number of joints.
+/// Finds the stop. A contact is looked for from the path's beginning, a stop without contact from its end. Throws
+/// `stop_off_path` if the robot stopped farther from the path than any point of it may be off (1 mm or the stop
+/// tolerance), and `invalid_argument` for a NaN or a wrong number of joints.
 Stop locate(const Task& task, const Action& action, const Observation& observation);
 
-/// An action as far as it went, in a form in which it can be replayed against any pose: free at every waypoint but the last; there in contact, or free too.
+/// An action as far as it went, in a form in which it can be replayed against any pose: free at every waypoint but the
+/// last; there in contact, or free too.
 struct Trace {
   std::uint64_t action_id = 0;
   action::Kind kind = action::Kind::move;
   bool contact = false;
-  std::size_t outcome = 0;   ///< as predicted by a planner: the waypoint of the action at the end of the segment in which it stopped; the path's size without contact
+  std::size_t outcome = 0;  ///< as predicted by a planner: the waypoint of the action at the end of the segment in
+                            ///< which it stopped; the path's size without contact
   JointPath path;
   BodyPath bodies;
 };
@@ -45,7 +49,8 @@ Trace trace_of(const Task& task, const Action& action, const Observation& observ
 /// Whether a target at exactly this pose would have given the trace.
 bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_target);
 
-/// Whether some pose at which no point of the target is farther than `radius` from `base_from_target` may have given the trace. Errs to true only.
+/// Whether some pose at which no point of the target is farther than `radius` from `base_from_target` may have given
+/// the trace. Errs to true only.
 bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius);
 
 }  // namespace tactus::belief

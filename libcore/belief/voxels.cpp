@@ -22,8 +22,10 @@ std::vector<VoxelModel::InteriorPoint> interior_points(const geometry::DistanceF
   return points;
 }
 
-/// The longest distance from a point of the surface to a point of the inside deep enough to hold a voxel centre near it, plus that depth.
-double cover_radius(const geometry::Mesh& mesh, const std::vector<VoxelModel::InteriorPoint>& interior, double half_diagonal, double diameter) {
+/// The longest distance from a point of the surface to a point of the inside deep enough to hold a voxel centre near
+/// it, plus that depth.
+double cover_radius(const geometry::Mesh& mesh, const std::vector<VoxelModel::InteriorPoint>& interior,
+                    double half_diagonal, double diameter) {
   double longest = 0.0;
   for (const geometry::Triangle& t : mesh.triangles) {
     const geometry::Corners c = geometry::corners(mesh, t);
@@ -42,21 +44,24 @@ double cover_radius(const geometry::Mesh& mesh, const std::vector<VoxelModel::In
 }  // namespace
 
 VoxelModel::VoxelModel(const Task& task, double voxel_size)
-    : grid(scene::target_region(task.scene(), Pose::Identity()), voxel_size), diameter(geometry::diameter(task.scene().target.mesh)) {
+    : grid(scene::target_region(task.scene(), Pose::Identity()), voxel_size),
+      diameter(geometry::diameter(task.scene().target.mesh)) {
   const geometry::Mesh& mesh = task.scene().target.mesh;
   interior = interior_points(task.target_contact().field());
   cover = cover_radius(mesh, interior, grid.half_diagonal(), diameter);
   target_voxels = std::abs(geometry::signed_volume(mesh)) / std::pow(voxel_size, 3);
 }
 
-VoxelBelief::VoxelBelief(std::shared_ptr<const VoxelModel> model) : model_(std::move(model)), possibly_occupied_(model_->grid.size(), true) {}
+VoxelBelief::VoxelBelief(std::shared_ptr<const VoxelModel> model)
+    : model_(std::move(model)), possibly_occupied_(model_->grid.size(), true) {}
 
 void VoxelBelief::update(const Task& task, const Trace& trace) {
   const contact::SweptVoxels swept = contact::swept_voxels(task.bodies(), trace.bodies, model_->grid);
   const std::size_t last = trace.bodies.size() - 1;
   if (!trace.contact) return remove_free(swept.voxels, swept.entered_by(last));
   remove_free(swept.voxels, last == 0 ? 0 : swept.entered_by(last - 1));
-  add_contact(contact::contact_candidates(task.bodies(), trace.bodies, last, model_->grid, task.options().contact_margin));
+  add_contact(
+      contact::contact_candidates(task.bodies(), trace.bodies, last, model_->grid, task.options().contact_margin));
 }
 
 void VoxelBelief::remove_free(const std::vector<std::uint32_t>& swept, std::size_t count) {
@@ -71,7 +76,8 @@ void VoxelBelief::add_contact(const Bitset& candidates) {
   }
 }
 
-/// Drops candidates with no part of the target near enough, then applies U: drops voxels too far from every candidate. Says whether anything changed.
+/// Drops candidates with no part of the target near enough, then applies U: drops voxels too far from every candidate.
+/// Says whether anything changed.
 bool VoxelBelief::shrink(ContactRecord& record) {
   const double half_diagonal = model_->grid.half_diagonal();
   const std::vector<float> to_possible = contact::distance_to(possibly_occupied_, model_->grid);
@@ -103,7 +109,8 @@ bool VoxelBelief::excludes(const Pose& base_from_target, double radius) const {
   return false;
 }
 
-VoxelBelief VoxelBelief::restored(std::shared_ptr<const VoxelModel> model, Bitset possibly_occupied, std::vector<Bitset> candidates) {
+VoxelBelief VoxelBelief::restored(std::shared_ptr<const VoxelModel> model, Bitset possibly_occupied,
+                                  std::vector<Bitset> candidates) {
   VoxelBelief belief(std::move(model));
   belief.possibly_occupied_ = std::move(possibly_occupied);
   for (Bitset& set : candidates) {

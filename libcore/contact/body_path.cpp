@@ -21,7 +21,8 @@ bool moves(const robot::RobotModel& model, int link) {
 
 const geometry::Box RobotBodies::everywhere{Vector3::Constant(-1e300), Vector3::Constant(1e300)};
 
-RobotBodies::RobotBodies(std::shared_ptr<const robot::RobotModel> model, int tool_link, const Mesh& tool, const geometry::Box& region)
+RobotBodies::RobotBodies(std::shared_ptr<const robot::RobotModel> model, int tool_link, const Mesh& tool,
+                         const geometry::Box& region)
     : model_(std::move(model)), tool_link_(tool_link), region_(region) {
   bodies_.push_back(std::make_unique<Body>(tool, tool_leaf_radius));
   links_.push_back(tool_link);
@@ -40,13 +41,14 @@ void RobotBodies::append_poses(const robot::JointVector& q, std::vector<Pose>& p
   for (const int link : links_) poses.push_back(base_from_link[link]);
 }
 
-BodyPath::BodyPath(const RobotBodies& bodies, const std::vector<robot::JointVector>& waypoints) : bodies_(bodies.size()) {
+BodyPath::BodyPath(const RobotBodies& bodies, const std::vector<robot::JointVector>& waypoints)
+    : bodies_(bodies.size()) {
   poses_.reserve(bodies_ * waypoints.size());
   for (const robot::JointVector& q : waypoints) bodies.append_poses(q, poses_);
   travelled_.assign(poses_.size(), 0.0);
   for (std::size_t i = bodies_; i < poses_.size(); ++i)
-    travelled_[i] = travelled_[i - bodies_] +
-                    geometry::largest_displacement(bodies.body(i % bodies_).tree().box(), poses_[i - bodies_], poses_[i]);
+    travelled_[i] = travelled_[i - bodies_] + geometry::largest_displacement(bodies.body(i % bodies_).tree().box(),
+                                                                             poses_[i - bodies_], poses_[i]);
   const geometry::Box near = bodies.region().inflated(region_margin);
   for (std::size_t body = 0; body < bodies_; ++body) {
     Range range{size(), 0};

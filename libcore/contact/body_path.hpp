@@ -9,9 +9,10 @@ namespace tactus::contact {
 /// The bodies of a robot that may touch the target: the tool, and every link that has a shape and moves. Const, shared.
 class RobotBodies {
  public:
-  /// `tool` stands in the tool link's frame. The tool is body 0, then the links from the tip to the base. `region` (base frame) holds every point that a target may occupy:
-  /// where a body is clear of it nothing is looked up.
-  RobotBodies(std::shared_ptr<const robot::RobotModel> model, int tool_link, const Mesh& tool, const geometry::Box& region = everywhere);
+  /// `tool` stands in the tool link's frame. The tool is body 0, then the links from the tip to the base. `region`
+  /// (base frame) holds every point that a target may occupy: where a body is clear of it nothing is looked up.
+  RobotBodies(std::shared_ptr<const robot::RobotModel> model, int tool_link, const Mesh& tool,
+              const geometry::Box& region = everywhere);
 
   static const geometry::Box everywhere;
 
@@ -39,9 +40,10 @@ class BodyPath {
   BodyPath() = default;
   BodyPath(const RobotBodies& bodies, const std::vector<robot::JointVector>& waypoints);
 
-  std::size_t size() const { return bodies_ == 0 ? 0 : poses_.size() / bodies_; }   ///< waypoints
+  std::size_t size() const { return bodies_ == 0 ? 0 : poses_.size() / bodies_; }  ///< waypoints
   const Pose& base_from_body(std::size_t waypoint, std::size_t body) const { return poses_[waypoint * bodies_ + body]; }
-  /// No point of the body has moved farther than `travelled(j, b) - travelled(i, b)` between the waypoints i < j. Metres.
+  /// No point of the body has moved farther than `travelled(j, b) - travelled(i, b)` between the waypoints i < j.
+  /// Metres.
   double travelled(std::size_t waypoint, std::size_t body) const { return travelled_[waypoint * bodies_ + body]; }
 
   /// Outside these waypoints the body is farther than `region_margin` from the bodies' region.

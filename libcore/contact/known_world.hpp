@@ -45,8 +45,9 @@ class KnownWorld {
   /// The radius about each link's origin that holds all its shapes, metres.
   const std::vector<double>& link_reach() const;
 
-  /// Metres that no point of the robot exceeds between where it is at two configurations. For near neighbours the largest displacement of a corner of a shape's box (a rigid displacement is
-  /// largest at a corner); where a joint moves more than 0.3, `robot::motion_bound`.
+  /// Metres that no point of the robot exceeds between where it is at two configurations. For near neighbours the
+  /// largest displacement of a corner of a shape's box (a rigid displacement is largest at a corner); where a joint
+  /// moves more than 0.3, `robot::motion_bound`.
   double displacement(const JointVector& from, const JointVector& to) const;
 
  private:

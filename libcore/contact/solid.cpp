@@ -69,7 +69,8 @@ bool Solid::holds_part_of(const Solid& other, const Pose& this_from_other) const
   for (const Shell& inner : other.shells_) {
     const Vector3 point = this_from_other * inner.vertex;
     for (const Shell& outer : shells_)
-      if (inner.tree.box().size().maxCoeff() <= outer.tree.box().size().norm() && outer.tree.contains(point)) return true;
+      if (inner.tree.box().size().maxCoeff() <= outer.tree.box().size().norm() && outer.tree.contains(point))
+        return true;
   }
   return false;
 }

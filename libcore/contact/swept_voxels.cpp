@@ -9,7 +9,9 @@
 namespace tactus::contact {
 namespace {
 
-geometry::Box box_at(const Body& body, const Pose& base_from_body) { return moved_box(body.tree().box(), base_from_body); }
+geometry::Box box_at(const Body& body, const Pose& base_from_body) {
+  return moved_box(body.tree().box(), base_from_body);
+}
 
 bool inside(const Body& body, const Vector3& p) {
   if (!body.tree().box().contains(p)) return false;
@@ -19,7 +21,8 @@ bool inside(const Body& body, const Vector3& p) {
 }
 
 /// Squared distances along one line of the grid, in voxels: the lower envelope of parabolas.
-void transform_line(std::vector<float>& line, std::vector<float>& result, std::vector<int>& apex, std::vector<float>& begin) {
+void transform_line(std::vector<float>& line, std::vector<float>& result, std::vector<int>& apex,
+                    std::vector<float>& begin) {
   const int n = static_cast<int>(line.size());
   int last = 0;
   apex[0] = 0;
@@ -52,30 +55,33 @@ SweptVoxels swept_voxels(const RobotBodies& bodies, const BodyPath& path, const 
   for (std::size_t i = 0; i < path.size(); ++i) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const Pose body_from_base = path.base_from_body(i, b).inverse();
-      grid.for_each_in(box_at(bodies.body(b), path.base_from_body(i, b)), [&](std::size_t voxel, const Vector3& centre) {
-        if (seen.test(voxel) || !inside(bodies.body(b), body_from_base * centre)) return;
-        seen.set(voxel);
-        swept.voxels.push_back(static_cast<std::uint32_t>(voxel));
-      });
+      grid.for_each_in(box_at(bodies.body(b), path.base_from_body(i, b)),
+                       [&](std::size_t voxel, const Vector3& centre) {
+                         if (seen.test(voxel) || !inside(bodies.body(b), body_from_base * centre)) return;
+                         seen.set(voxel);
+                         swept.voxels.push_back(static_cast<std::uint32_t>(voxel));
+                       });
     }
     swept.entered.push_back(static_cast<std::uint32_t>(swept.voxels.size()));
   }
   return swept;
 }
 
-Bitset contact_candidates(const RobotBodies& bodies, const BodyPath& path, std::size_t stop, const VoxelGrid& grid, double slack) {
+Bitset contact_candidates(const RobotBodies& bodies, const BodyPath& path, std::size_t stop, const VoxelGrid& grid,
+                          double slack) {
   Bitset candidates(grid.size());
   const double near = grid.half_diagonal() + slack;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Body& body = bodies.body(b);
     const Pose body_from_base = path.base_from_body(stop, b).inverse();
     const Pose before_from_base = path.base_from_body(stop == 0 ? 0 : stop - 1, b).inverse();
-    grid.for_each_in(box_at(body, path.base_from_body(stop, b)).inflated(near), [&](std::size_t voxel, const Vector3& centre) {
-      const geometry::DistanceBounds at_stop = body.field().bounds(body_from_base * centre);
-      if (at_stop.lower > near || at_stop.upper < -near) return;
-      if (body.field().bounds(before_from_base * centre).upper < -near) return;
-      candidates.set(voxel);
-    });
+    grid.for_each_in(box_at(body, path.base_from_body(stop, b)).inflated(near),
+                     [&](std::size_t voxel, const Vector3& centre) {
+                       const geometry::DistanceBounds at_stop = body.field().bounds(body_from_base * centre);
+                       if (at_stop.lower > near || at_stop.upper < -near) return;
+                       if (body.field().bounds(before_from_base * centre).upper < -near) return;
+                       candidates.set(voxel);
+                     });
   }
   return candidates;
 }
@@ -85,7 +91,8 @@ std::vector<float> distance_to(const Bitset& from, const VoxelGrid& grid) {
   std::vector<float> squared(grid.size(), far);
   from.for_each([&](std::size_t voxel) { squared[voxel] = 0.0f; });
   const std::array<int, 3> shape = grid.shape();
-  std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(shape[0]), static_cast<std::size_t>(shape[0]) * shape[1]};
+  std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(shape[0]),
+                                    static_cast<std::size_t>(shape[0]) * shape[1]};
   for (int d = 0; d < 3; ++d) {
     const int n = shape[d];
     std::vector<float> line(n), result(n), begin(n + 1);

@@ -9,7 +9,7 @@ namespace {
 constexpr double relative_detail = 0.4;  // of the reach or the depth asked for
 constexpr double field_spacing = 0.001;
 constexpr double field_border = 0.01;
-constexpr std::size_t leaf_stride = 31;      // of the first look for the nearest point
+constexpr std::size_t leaf_stride = 31;  // of the first look for the nearest point
 constexpr std::size_t field_samples = 1'000'000;
 
 }  // namespace
@@ -19,19 +19,25 @@ TargetContact::TargetContact(std::shared_ptr<const RobotBodies> bodies, const Me
       target_(target),
       field_(target, field_spacing, field_border, field_samples),
       margin_(margin) {
-  for (const Mesh& shell : geometry::shells(geometry::merged_vertices(target))) shell_points_.push_back(shell.vertices.front());
+  for (const Mesh& shell : geometry::shells(geometry::merged_vertices(target)))
+    shell_points_.push_back(shell.vertices.front());
 }
 
-/// Where the look-up leaves a leaf undecided. For a depth (threshold < 0) the leaf's centre speaks; for a wide reach its ball, which errs to a hit; else its triangle against the target's.
-bool TargetContact::leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body, double threshold) const {
+/// Where the look-up leaves a leaf undecided. For a depth (threshold < 0) the leaf's centre speaks; for a wide reach
+/// its ball, which errs to a hit; else its triangle against the target's.
+bool TargetContact::leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body,
+                             double threshold) const {
   const Vector3 centre = target_from_body * leaf.centre;
-  if (threshold < 0.0) return field_.tree().distance(centre, -threshold) >= -threshold && field_.tree().contains(centre);
-  if (threshold > std::max(margin_, leaf.radius)) return field_.tree().distance(centre, threshold + 1.01 * leaf.radius) <= threshold + leaf.radius;
+  if (threshold < 0.0)
+    return field_.tree().distance(centre, -threshold) >= -threshold && field_.tree().contains(centre);
+  if (threshold > std::max(margin_, leaf.radius))
+    return field_.tree().distance(centre, threshold + 1.01 * leaf.radius) <= threshold + leaf.radius;
   return field_.tree().within(geometry::transformed(body.triangle(leaf.triangle), target_from_body), threshold);
 }
 
-/// Goes through the body's balls, deepest detail only where the target is near: a ball is passed over when its centre is a little farther from the threshold
-/// than its radius; a reach much wider than a ball takes the ball for its part of the surface, which errs to a hit, and a depth much greater gives it up, which errs to none.
+/// Goes through the body's balls, deepest detail only where the target is near: a ball is passed over when its centre
+/// is a little farther from the threshold than its radius; a reach much wider than a ball takes the ball for its part
+/// of the surface, which errs to a hit, and a depth much greater gives it up, which errs to none.
 TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_from_body, double threshold) const {
   const std::vector<SurfaceBall>& balls = body.balls();
   const double detail = std::abs(threshold) > margin_ ? relative_detail * std::abs(threshold) : 0.0;
@@ -61,7 +67,9 @@ TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_f
     if (ball.triangle >= 0) {
       if (bounds.upper < threshold) return {true, 0.0};
       if (lower <= threshold && leaf_hit(body, ball, target_from_body, threshold)) return {true, 0.0};
-      if (threshold >= 0.0 && bounds.lower < 0.0 && side_unknown(ball.shell) && field_.tree().contains(target_from_body * ball.centre)) return {true, 0.0};
+      if (threshold >= 0.0 && bounds.lower < 0.0 && side_unknown(ball.shell) &&
+          field_.tree().contains(target_from_body * ball.centre))
+        return {true, 0.0};
       lowest = std::min(lowest, lower);
     }
     ++i;
@@ -75,8 +83,8 @@ bool TargetContact::target_inside(const Body& body, const Pose& target_from_body
                      [&](const Vector3& p) { return body.tree().contains(body_from_target * p); });
 }
 
-std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, const Pose& base_from_target, double threshold,
-                                       std::size_t from, std::size_t to) const {
+std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, const Pose& base_from_target,
+                                       double threshold, std::size_t from, std::size_t to) const {
   if (from >= to) return to;
   const Pose target_from_base = base_from_target.inverse();
   const std::size_t none = to;
@@ -94,8 +102,8 @@ std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, c
   return none;
 }
 
-std::optional<std::size_t> TargetContact::first_reach(const BodyPath& path, const Pose& base_from_target, double threshold,
-                                                      std::size_t from) const {
+std::optional<std::size_t> TargetContact::first_reach(const BodyPath& path, const Pose& base_from_target,
+                                                      double threshold, std::size_t from) const {
   std::size_t first = path.size();
   for (std::size_t body = 0; body < bodies_->size(); ++body)
     first = std::min(first, first_reach(path, body, base_from_target, threshold, from, first));
@@ -106,7 +114,8 @@ std::optional<std::size_t> TargetContact::first_contact(const BodyPath& path, co
   return first_reach(path, base_from_target, margin_, 1);
 }
 
-std::optional<std::size_t> TargetContact::first_within(const BodyPath& path, const Pose& base_from_target, double radius, std::size_t from) const {
+std::optional<std::size_t> TargetContact::first_within(const BodyPath& path, const Pose& base_from_target,
+                                                       double radius, std::size_t from) const {
   return first_reach(path, base_from_target, radius, from);
 }
 
@@ -114,17 +123,20 @@ bool TargetContact::touches(const BodyPath& path, std::size_t waypoint, const Po
   return within(path, waypoint, base_from_target, margin_);
 }
 
-bool TargetContact::within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target, double radius) const {
+bool TargetContact::within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target,
+                           double radius) const {
   for (std::size_t body = 0; body < bodies_->size(); ++body)
     if (first_reach(path, body, base_from_target, radius, waypoint, waypoint + 1) == waypoint) return true;
   return false;
 }
 
-std::optional<std::size_t> TargetContact::first_certain_contact(const BodyPath& path, const Pose& base_from_target, double radius, std::size_t from) const {
+std::optional<std::size_t> TargetContact::first_certain_contact(const BodyPath& path, const Pose& base_from_target,
+                                                                double radius, std::size_t from) const {
   return first_reach(path, base_from_target, -radius, from);
 }
 
-ContactInterval TargetContact::first_contact_interval(const BodyPath& path, const Pose& base_from_target, double radius) const {
+ContactInterval TargetContact::first_contact_interval(const BodyPath& path, const Pose& base_from_target,
+                                                      double radius) const {
   return {first_reach(path, base_from_target, radius + margin_, 1).value_or(path.size()),
           first_certain_contact(path, base_from_target, radius).value_or(path.size())};
 }
@@ -152,7 +164,8 @@ Nearest TargetContact::nearest(const BodyPath& path, std::size_t waypoint, const
         continue;
       }
       if (ball.triangle >= 0) {
-        const double estimate = bounds.upper > field_border ? 0.5 * (bounds.lower + bounds.upper) : field_.estimate(centre);
+        const double estimate =
+            bounds.upper > field_border ? 0.5 * (bounds.lower + bounds.upper) : field_.estimate(centre);
         if (estimate < result.distance) result.distance = estimate, result.point = centre;
       }
       ++i;

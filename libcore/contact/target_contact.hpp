@@ -7,7 +7,8 @@
 
 namespace tactus::contact {
 
-/// The waypoints at which a pose somewhere in a cell may first be touched: no pose in it is touched before `earliest` nor stays free up to and including `latest`.
+/// The waypoints at which a pose somewhere in a cell may first be touched: no pose in it is touched before `earliest`
+/// nor stays free up to and including `latest`.
 struct ContactInterval {
   std::size_t earliest = 0;  ///< the path's size: certainly never
   std::size_t latest = 0;    ///< the path's size: perhaps never
@@ -15,15 +16,17 @@ struct ContactInterval {
 
 /// The point of the robot that is deepest in the target, or nearest to it.
 struct Nearest {
-  double distance = 1e300;   ///< signed, m: negative inside the target
-  Vector3 point = Vector3::Zero();   ///< on the robot, in the target's frame
+  double distance = 1e300;             ///< signed, m: negative inside the target
+  Vector3 point = Vector3::Zero();     ///< on the robot, in the target's frame
   Vector3 gradient = Vector3::Zero();  ///< of the signed distance there, in the target's frame
 };
 
-/// Answers the one question of the planner: at which waypoint of a motion does the robot first touch the target, were the target at this pose?
+/// Answers the one question of the planner: at which waypoint of a motion does the robot first touch the target, were
+/// the target at this pose?
 ///
-/// Two solids are in contact when closer than the margin, or one inside the other; an open mesh is its surface. The first waypoint does not count. The answer is
-/// that of testing every triangle pair at every waypoint; waypoints are skipped only where a bound on the motion proves them free. Const, shared by any number of threads.
+/// Two solids are in contact when closer than the margin, or one inside the other; an open mesh is its surface. The
+/// first waypoint does not count. The answer is that of testing every triangle pair at every waypoint; waypoints are
+/// skipped only where a bound on the motion proves them free. Const, shared by any number of threads.
 class TargetContact {
  public:
   /// `target` in its own frame; `margin` in metres.
@@ -32,25 +35,29 @@ class TargetContact {
   /// The first waypoint >= 1 in contact; none if the whole path is free.
   std::optional<std::size_t> first_contact(const BodyPath& path, const Pose& base_from_target) const;
 
-  /// The first waypoint >= `from` at which the robot, inflated by `radius` (m, >= 0), touches the target; 0 asks for crossing or containment, without a margin. Exact up to the
-  /// margin; wider reaches may err to an earlier waypoint, by up to
-  /// twice the larger of a leaf's radius and 0.4 of the reach.
-  std::optional<std::size_t> first_within(const BodyPath& path, const Pose& base_from_target, double radius, std::size_t from = 1) const;
+  /// The first waypoint >= `from` at which the robot, inflated by `radius` (m, >= 0), touches the target; 0 asks for
+  /// crossing or containment, without a margin. Exact up to the margin; wider reaches may err to an earlier waypoint,
+  /// by up to twice the larger of a leaf's radius and 0.4 of the reach.
+  std::optional<std::size_t> first_within(const BodyPath& path, const Pose& base_from_target, double radius,
+                                          std::size_t from = 1) const;
 
   /// Whether the robot touches the target at one waypoint.
   bool touches(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const;
 
-  /// The interval for all poses at which no point of the target is farther than `radius` (m) from where it is at `base_from_target`.
-  /// Law: every such pose has its first contact in the interval.
+  /// The interval for all poses at which no point of the target is farther than `radius` (m) from where it is at
+  /// `base_from_target`. Law: every such pose has its first contact in the interval.
   ContactInterval first_contact_interval(const BodyPath& path, const Pose& base_from_target, double radius) const;
 
-  /// The first waypoint >= `from` whose robot, deflated by `radius` (m, > 0), certainly meets the target; none if no such waypoint is found.
-  std::optional<std::size_t> first_certain_contact(const BodyPath& path, const Pose& base_from_target, double radius, std::size_t from = 1) const;
+  /// The first waypoint >= `from` whose robot, deflated by `radius` (m, > 0), certainly meets the target; none if no
+  /// such waypoint is found.
+  std::optional<std::size_t> first_certain_contact(const BodyPath& path, const Pose& base_from_target, double radius,
+                                                   std::size_t from = 1) const;
 
   /// Whether the robot comes within `radius` (m) of the target at a waypoint; errs as `first_within`.
   bool within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target, double radius) const;
 
-  /// An estimate of the deepest or nearest point at a waypoint, to a leaf's size, among the bodies near the region. Nothing sound may rest on it.
+  /// An estimate of the deepest or nearest point at a waypoint, to a leaf's size, among the bodies near the region.
+  /// Nothing sound may rest on it.
   Nearest nearest(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const;
 
   const Mesh& target() const { return target_; }
@@ -66,8 +73,10 @@ class TargetContact {
   Reach reach(const Body& body, const Pose& target_from_body, double threshold) const;
   bool leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body, double threshold) const;
   bool target_inside(const Body& body, const Pose& target_from_body) const;
-  std::size_t first_reach(const BodyPath& path, std::size_t body, const Pose& base_from_target, double threshold, std::size_t from, std::size_t to) const;
-  std::optional<std::size_t> first_reach(const BodyPath& path, const Pose& base_from_target, double threshold, std::size_t from) const;
+  std::size_t first_reach(const BodyPath& path, std::size_t body, const Pose& base_from_target, double threshold,
+                          std::size_t from, std::size_t to) const;
+  std::optional<std::size_t> first_reach(const BodyPath& path, const Pose& base_from_target, double threshold,
+                                         std::size_t from) const;
 
   std::shared_ptr<const RobotBodies> bodies_;
   Mesh target_;

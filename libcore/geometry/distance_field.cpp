@@ -14,9 +14,7 @@ constexpr double float_slack = 1e-7;  // of a distance stored as a float, relati
 DistanceField::DistanceField(const Mesh& mesh, double spacing, double border, std::size_t max_samples)
     : tree_(mesh), spacing_(spacing) {
   const Box box = tree_.box().inflated(border);
-  auto samples_at = [&](double h) {
-    return ((box.size() / h).array().ceil() + 1.0).prod();
-  };
+  auto samples_at = [&](double h) { return ((box.size() / h).array().ceil() + 1.0).prod(); };
   while (samples_at(spacing_) > static_cast<double>(max_samples)) spacing_ *= 1.1;
   origin_ = box.low;
   for (int d = 0; d < 3; ++d) count_[d] = static_cast<int>(std::ceil(box.size()[d] / spacing_)) + 1;
@@ -54,7 +52,10 @@ DistanceBounds DistanceField::bounds(const Vector3& p) const {
     squared += offset * offset;
     index[d] = static_cast<int>(nearest);
   }
-  const std::size_t at = static_cast<std::size_t>(index[0]) + static_cast<std::size_t>(count_[0]) * (static_cast<std::size_t>(index[1]) + static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(index[2]));
+  const std::size_t at =
+      static_cast<std::size_t>(index[0]) +
+      static_cast<std::size_t>(count_[0]) * (static_cast<std::size_t>(index[1]) +
+                                             static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(index[2]));
   const auto sample = static_cast<double>(samples_[at]);
   const double error = std::sqrt(squared) * spacing_ + float_slack * (1.0 + std::abs(sample));
   if (on_lattice) return {sample - error, sample + error};
@@ -73,7 +74,9 @@ double DistanceField::estimate(const Vector3& p) const {
     step[d] = stride;
     stride *= static_cast<std::size_t>(count_[d]);
   }
-  const auto along_x = [&](std::size_t at) { return (1.0 - part[0]) * static_cast<double>(samples_[at]) + part[0] * static_cast<double>(samples_[at + step[0]]); };
+  const auto along_x = [&](std::size_t at) {
+    return (1.0 - part[0]) * static_cast<double>(samples_[at]) + part[0] * static_cast<double>(samples_[at + step[0]]);
+  };
   const auto along_y = [&](std::size_t at) { return (1.0 - part[1]) * along_x(at) + part[1] * along_x(at + step[1]); };
   return (1.0 - part[2]) * along_y(corner) + part[2] * along_y(corner + step[2]);
 }
@@ -81,7 +84,8 @@ double DistanceField::estimate(const Vector3& p) const {
 Vector3 DistanceField::gradient(const Vector3& p) const {
   Vector3 result;
   const double h = 0.5 * spacing_;
-  for (int d = 0; d < 3; ++d) result[d] = (estimate(p + h * Vector3::Unit(d)) - estimate(p - h * Vector3::Unit(d))) / (2.0 * h);
+  for (int d = 0; d < 3; ++d)
+    result[d] = (estimate(p + h * Vector3::Unit(d)) - estimate(p - h * Vector3::Unit(d))) / (2.0 * h);
   return result;
 }
 

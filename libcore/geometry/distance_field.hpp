@@ -11,15 +11,16 @@ struct DistanceBounds {
   double upper = 0.0;
 };
 
-/// The signed distance to a mesh: exact from its triangles, and bounded from a lattice of samples at the cost of one look-up.
+/// The signed distance to a mesh: exact from its triangles, and bounded from a lattice of samples at the cost of one
+/// look-up.
 ///
-/// The distance is 1-Lipschitz, so a sample s at distance e bounds it by s - e and s + e: the bounds are sound whatever the spacing. Where shells
-/// overlap, the depth inside is at least what is given (inner surfaces count as surface). An open mesh has distances >= 0.
-/// Const after construction, shared by any number of threads.
+/// The distance is 1-Lipschitz, so a sample s at distance e bounds it by s - e and s + e: the bounds are sound whatever
+/// the spacing. Where shells overlap, the depth inside is at least what is given (inner surfaces count as surface). An
+/// open mesh has distances >= 0. Const after construction, shared by any number of threads.
 class DistanceField {
  public:
-  /// Samples at `spacing` metres over the mesh's box inflated by `border`; the spacing grows until there are at most `max_samples`.
-  /// Cost: about 1 us a sample.
+  /// Samples at `spacing` metres over the mesh's box inflated by `border`; the spacing grows until there are at most
+  /// `max_samples`. Cost: about 1 us a sample.
   DistanceField(const Mesh& mesh, double spacing, double border, std::size_t max_samples = 4'000'000);
 
   /// Bounds at any point, some tens of ns. Inside the lattice they are at most 1.74 spacings apart.
@@ -47,7 +48,7 @@ class DistanceField {
   std::array<int, 3> count_{};
   double inverse_spacing_ = 0.0;
   std::array<double, 3> last_{};  ///< of the indices
-  std::vector<float> samples_;  ///< x fastest
+  std::vector<float> samples_;    ///< x fastest
 };
 
 }  // namespace tactus::geometry

@@ -117,7 +117,8 @@ double largest_displacement(const Box& box, const Pose& from, const Pose& to) {
   const Vector3 half = 0.5 * box.size();
   double largest = 0.0;
   for (int corner = 0; corner < 4; ++corner) {
-    const Vector3 offset = turn * Vector3(half.x(), corner & 1 ? half.y() : -half.y(), corner & 2 ? half.z() : -half.z());
+    const Vector3 offset =
+        turn * Vector3(half.x(), corner & 1 ? half.y() : -half.y(), corner & 2 ? half.z() : -half.z());
     largest = std::max({largest, (centre + offset).squaredNorm(), (centre - offset).squaredNorm()});
   }
   return std::sqrt(largest);

@@ -10,7 +10,8 @@ namespace tactus::geometry {
 
 using Triangle = std::array<std::int32_t, 3>;
 
-/// Triangles in metres. Closed meshes (see `is_closed`) count as solids with outward normals, open ones as their surface.
+/// Triangles in metres. Closed meshes (see `is_closed`) count as solids with outward normals, open ones as their
+/// surface.
 struct Mesh {
   std::vector<Vector3> vertices;
   std::vector<Triangle> triangles;  ///< indices into `vertices`, counter-clockwise seen from outside
@@ -23,8 +24,12 @@ struct Box {
   void add(const Vector3& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); }
   void add(const Box& box) { low = low.cwiseMin(box.low), high = high.cwiseMax(box.high); }
   Box inflated(double by) const { return {low - Vector3::Constant(by), high + Vector3::Constant(by)}; }
-  bool overlaps(const Box& other) const { return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all(); }
-  bool contains(const Vector3& p) const { return (low.array() <= p.array()).all() && (p.array() <= high.array()).all(); }
+  bool overlaps(const Box& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+  bool contains(const Vector3& p) const {
+    return (low.array() <= p.array()).all() && (p.array() <= high.array()).all();
+  }
   double distance(const Vector3& p) const { return (low - p).cwiseMax(p - high).cwiseMax(0.0).norm(); }
   Vector3 centre() const { return 0.5 * (low + high); }
   Vector3 size() const { return high - low; }
@@ -35,20 +40,22 @@ struct Sphere {
   double radius = 0.0;
 };
 
-Mesh box_mesh(const Vector3& size);                                 ///< centred on the origin
-Mesh cylinder_mesh(double radius, double length, int sides = 32);   ///< about z, centred; the polygon encloses the circle
-Mesh sphere_mesh(double radius, int rings = 16);                    ///< centred; the polyhedron encloses the sphere
+Mesh box_mesh(const Vector3& size);  ///< centred on the origin
+Mesh cylinder_mesh(double radius, double length,
+                   int sides = 32);               ///< about z, centred; the polygon encloses the circle
+Mesh sphere_mesh(double radius, int rings = 16);  ///< centred; the polyhedron encloses the sphere
 Mesh transformed(const Mesh& mesh, const Pose& pose);
 void append(Mesh& mesh, const Mesh& other);
 
 Box bounds(const Mesh& mesh);
-/// How far a point of a box in a moving frame is displaced at most between two poses of the frame: a rigid displacement is largest at a corner.
+/// How far a point of a box in a moving frame is displaced at most between two poses of the frame: a rigid displacement
+/// is largest at a corner.
 double largest_displacement(const Box& box, const Pose& from, const Pose& to);
-Sphere bounding_sphere(const Mesh& mesh);    ///< about the centre of the bounding box
-double diameter(const Mesh& mesh);           ///< D_max of the paper: the greatest distance between two of its points
+Sphere bounding_sphere(const Mesh& mesh);  ///< about the centre of the bounding box
+double diameter(const Mesh& mesh);         ///< D_max of the paper: the greatest distance between two of its points
 double signed_volume(const Mesh& mesh);
-bool is_closed(const Mesh& mesh);            ///< every edge has exactly one opposite, after equal vertices are merged
-Mesh merged_vertices(const Mesh& mesh);      ///< vertices with equal coordinates made one; degenerate triangles dropped
+bool is_closed(const Mesh& mesh);        ///< every edge has exactly one opposite, after equal vertices are merged
+Mesh merged_vertices(const Mesh& mesh);  ///< vertices with equal coordinates made one; degenerate triangles dropped
 /// The triangles' connected shells, each as a mesh of its own. `mesh` has merged vertices.
 std::vector<Mesh> shells(const Mesh& mesh);
 /// Turns shells that are inside out (negative volume) right. Only closed shells are touched.

@@ -14,9 +14,9 @@ struct MeshFileLimits {
   std::uintmax_t memory = 2u << 30;  ///< of that process, in bytes
 };
 
-/// Reads an STL, OBJ, PLY or DAE file as one mesh in metres: every part of it, with the transformations inside the file and the unit that a
-/// DAE file states applied, its up-axis ignored (as ROS does); then `scale` by axis (a negative one flips the triangles).
-/// Equal vertices are merged, degenerate triangles dropped, closed shells oriented outward.
+/// Reads an STL, OBJ, PLY or DAE file as one mesh in metres: every part of it, with the transformations inside the file
+/// and the unit that a DAE file states applied, its up-axis ignored (as ROS does); then `scale` by axis (a negative one
+/// flips the triangles). Equal vertices are merged, degenerate triangles dropped, closed shells oriented outward.
 ///
 /// The importer runs in a child process with memory and time limits: a bad file is an error and not a crash.
 /// Throws `file_not_found`, `file_unreadable` or `bad_mesh` naming the file, what was found and what was expected.

@@ -94,7 +94,8 @@ bool TriangleTree::within(const Corners& triangle, double reach) const {
       continue;
     }
     for (int i = node.first; i < node.first + node.count; ++i)
-      if (bounds(faces_[i].corners).overlaps(near) && geometry::distance(faces_[i].corners, triangle) <= reach) return true;
+      if (bounds(faces_[i].corners).overlaps(near) && geometry::distance(faces_[i].corners, triangle) <= reach)
+        return true;
   }
   return false;
 }

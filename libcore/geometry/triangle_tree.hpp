@@ -19,7 +19,8 @@ class TriangleTree {
   /// Whether a triangle is no farther than `reach` metres from the surface, crosses or touches it.
   bool within(const Corners& triangle, double reach) const;
 
-  /// Whether `p` lies inside one of the closed shells (nested or overlapping ones are united). Open shells contain nothing.
+  /// Whether `p` lies inside one of the closed shells (nested or overlapping ones are united). Open shells contain
+  /// nothing.
   bool contains(const Vector3& p) const;
 
   const Box& box() const { return nodes_.front().box; }
@@ -31,8 +32,8 @@ class TriangleTree {
   };
   struct Node {
     Box box;
-    int first = 0;   ///< of its triangles if a leaf, else its left child
-    int count = 0;   ///< of its triangles; 0: an inner node whose children are `first` and `first + 1`
+    int first = 0;  ///< of its triangles if a leaf, else its left child
+    int count = 0;  ///< of its triangles; 0: an inner node whose children are `first` and `first + 1`
   };
 
   void build(int node, int begin, int end);

@@ -14,9 +14,9 @@ VoxelGrid::VoxelGrid(const Box& box, double pitch, std::size_t max_voxels) : ori
     const double cells = std::max(1.0, std::ceil(box.size()[d] / pitch - 1e-9));
     total *= cells;
     if (total > static_cast<double>(max_voxels))
-      throw support::Error(support::Status::invalid_argument,
-                           "voxel grid: a pitch of " + std::to_string(pitch) + " m gives more than " +
-                               std::to_string(max_voxels) + " voxels; a coarser one is needed");
+      throw support::Error(support::Status::invalid_argument, "voxel grid: a pitch of " + std::to_string(pitch) +
+                                                                  " m gives more than " + std::to_string(max_voxels) +
+                                                                  " voxels; a coarser one is needed");
     shape_[d] = static_cast<int>(cells);
   }
 }

@@ -21,7 +21,8 @@ class VoxelGrid {
   Box box() const { return {origin_, origin_ + pitch_ * Vector3(shape_[0], shape_[1], shape_[2])}; }
 
   std::size_t index(int x, int y, int z) const {
-    return static_cast<std::size_t>(x) + static_cast<std::size_t>(shape_[0]) * (y + static_cast<std::size_t>(shape_[1]) * z);
+    return static_cast<std::size_t>(x) +
+           static_cast<std::size_t>(shape_[0]) * (y + static_cast<std::size_t>(shape_[1]) * z);
   }
   std::array<int, 3> coordinates(std::size_t index) const;
   Vector3 centre(std::size_t index) const;
@@ -30,7 +31,8 @@ class VoxelGrid {
   /// The voxel whose cube holds `p`; none outside the grid.
   std::optional<std::size_t> voxel_at(const Vector3& p) const;
 
-  /// The range of voxel coordinates whose centres may lie in `box`: low inclusive, high exclusive; empty ranges have low >= high.
+  /// The range of voxel coordinates whose centres may lie in `box`: low inclusive, high exclusive; empty ranges have
+  /// low >= high.
   void range(const Box& box, std::array<int, 3>& low, std::array<int, 3>& high) const;
 
   /// Calls `visit(index, centre)` for every voxel whose centre may lie in `box`.

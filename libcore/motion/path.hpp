@@ -15,8 +15,8 @@ using JointPath = std::vector<JointVector>;
 
 /// How fast the tool may go on a stretch of the path.
 struct Pace {
-  double speed = 0.1;         ///< of the tool frame, m/s
-  double acceleration = 0.5;  ///< of the tool frame, m/s^2
+  double speed = 0.1;               ///< of the tool frame, m/s
+  double acceleration = 0.5;        ///< of the tool frame, m/s^2
   double joint_acceleration = 4.0;  ///< rad/s^2 or m/s^2
 };
 
@@ -26,9 +26,10 @@ struct PacedSegment {
   Pace pace;
 };
 
-/// Seconds from the start at which each waypoint is passed: starts and ends at rest, within the joints' velocity limits and the given accelerations and
-/// tool speeds. Same length as the path; strictly increasing where waypoints differ.
-std::vector<double> time_path(const robot::RobotModel& model, int tool_link, const JointPath& path, const std::vector<PacedSegment>& segments);
+/// Seconds from the start at which each waypoint is passed: starts and ends at rest, within the joints' velocity limits
+/// and the given accelerations and tool speeds. Same length as the path; strictly increasing where waypoints differ.
+std::vector<double> time_path(const robot::RobotModel& model, int tool_link, const JointPath& path,
+                              const std::vector<PacedSegment>& segments);
 
 /// Length of the tool frame's way (m) and the angle it turns (rad).
 struct ToolTravel {

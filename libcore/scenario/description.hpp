@@ -71,7 +71,7 @@ struct BeliefDescription {
   int delta = 3000;                   ///< number of voxels at which they are handed over to cells of poses
   Resolution cell{0.01, 0.1};         ///< of those cells at first
   int max_cells = 8000;
-  int particles = 200;  ///< poses drawn for planning
+  int particles = 200;                    ///< poses drawn for planning
   std::string likelihood = "calibrated";  ///< of a contact on voxels; or "paper"
 };
 

@@ -42,9 +42,11 @@ void place_tool(const Description& description, scene::Scene& scene, std::vector
   const RobotDescription& robot = description.robot;
   scene.tool_link = scene.robot->find_link(robot.tool_link);
   if (scene.tool_link < 0)
-    problems.push_back("robot.tool_link: found '" + robot.tool_link + "', which " + robot.urdf.string() + " does not have, expected the name of a link");
+    problems.push_back("robot.tool_link: found '" + robot.tool_link + "', which " + robot.urdf.string() +
+                       " does not have, expected the name of a link");
   if (static_cast<int>(robot.start.size()) != scene.robot->dof())
-    problems.push_back("robot.start: found " + std::to_string(robot.start.size()) + " values, expected " + std::to_string(scene.robot->dof()) + ", one a joint");
+    problems.push_back("robot.start: found " + std::to_string(robot.start.size()) + " values, expected " +
+                       std::to_string(scene.robot->dof()) + ", one a joint");
   scene.start = Eigen::Map<const robot::JointVector>(robot.start.data(), static_cast<Eigen::Index>(robot.start.size()));
 }
 
@@ -52,7 +54,8 @@ scene::Scene make_scene(const Description& d, std::vector<std::string>& problems
   scene::Scene scene;
   scene.robot = collected(problems, [&] { return load_robot(d.robot); });
   if (scene.robot) place_tool(d, scene, problems);
-  scene.tool = geometry::transformed(collected(problems, [&] { return load(d.tool.mesh); }), d.tool.tool_link_from_mesh);
+  scene.tool =
+      geometry::transformed(collected(problems, [&] { return load(d.tool.mesh); }), d.tool.tool_link_from_mesh);
   for (const ObjectDescription& object : d.world)
     scene.world.push_back(collected(problems, [&] { return static_part(object, d.robot.world_from_base.inverse()); }));
   scene.target.mesh = collected(problems, [&] { return load(d.target.mesh); });
@@ -67,8 +70,13 @@ scene::Scene make_scene(const Description& d, std::vector<std::string>& problems
 
 action::TaskOptions task_options(const Description& d) {
   action::TaskOptions options;
-  options.motion = {d.contact.step,           d.contact.insertion_step,   d.motion.speed,             d.motion.approach_speed,
-                    d.motion.insertion_speed, d.motion.acceleration,      d.motion.joint_acceleration};
+  options.motion = {d.contact.step,
+                    d.contact.insertion_step,
+                    d.motion.speed,
+                    d.motion.approach_speed,
+                    d.motion.insertion_speed,
+                    d.motion.acceleration,
+                    d.motion.joint_acceleration};
   options.actions = {d.actions.primitive_lengths, d.actions.primitive_angles,     d.actions.probe_spacing,
                      d.actions.probe_depth,       d.actions.insertion_candidates, d.actions.standoff};
   options.cost = {d.cost.metre, d.cost.radian, d.cost.action};
@@ -109,13 +117,15 @@ std::string prior_conflict(const scene::Scene& scene) {
   support::Rng rng(1);
   for (int i = 0; i < 256; ++i) {
     geometry::PoseVector v = scene.prior.centre;
-    for (int d = 0; d < 6; ++d) v[d] += scene.prior.width[d] * (i < 128 ? rng.uniform() - 0.5 : (rng.below(2) == 0 ? -0.5 : 0.5));
+    for (int d = 0; d < 6; ++d)
+      v[d] += scene.prior.width[d] * (i < 128 ? rng.uniform() - 0.5 : (rng.below(2) == 0 ? -0.5 : 0.5));
     for (std::size_t p = 0; p < parts.size(); ++p)
       if (touching(parts[p], Pose::Identity(), target, geometry::pose_from(v))) {
         std::ostringstream text;
         text << "prior: found a pose (x y z roll pitch yaw";
         for (const double value : v) text << ' ' << value;
-        text << ") at which the target cuts into '" << scene.world[p].name << "', expected every pose of the prior to be clear of the world";
+        text << ") at which the target cuts into '" << scene.world[p].name
+             << "', expected every pose of the prior to be clear of the world";
         return text.str();
       }
   }
@@ -133,7 +143,8 @@ std::shared_ptr<const Scenario> prepare(Description description) {
   std::vector<std::string> problems;
   scene::Scene scene = make_scene(description, problems);
   throw_all(problems);
-  if (const std::string conflict = prior_conflict(scene); !conflict.empty()) throw Error(Status::bad_scenario, conflict);
+  if (const std::string conflict = prior_conflict(scene); !conflict.empty())
+    throw Error(Status::bad_scenario, conflict);
   auto scenario = std::make_shared<Scenario>();
   scenario->task = std::make_shared<action::Task>(std::move(scene), task_options(description));
   scenario->model = std::make_shared<belief::Model>(scenario->task, belief_options(description.belief));
@@ -153,7 +164,9 @@ std::shared_ptr<const belief::Model> Scenario::model_of(belief::Kind kind) const
 
 std::shared_ptr<const Scenario> load(const std::filesystem::path& file) { return prepare(read_description(file)); }
 
-std::shared_ptr<const Scenario> parse(const std::string& yaml, const std::filesystem::path& base_dir) { return prepare(parse_description(yaml, base_dir)); }
+std::shared_ptr<const Scenario> parse(const std::string& yaml, const std::filesystem::path& base_dir) {
+  return prepare(parse_description(yaml, base_dir));
+}
 
 std::vector<std::string> check(const std::filesystem::path& file) {
   std::vector<std::string> problems;

@@ -7,12 +7,13 @@
 
 namespace tactus::scenario {
 
-/// A scenario made ready: meshes loaded, the robot checked, fields and the arm's posture computed. Const, shared by any number of threads.
+/// A scenario made ready: meshes loaded, the robot checked, fields and the arm's posture computed. Const, shared by any
+/// number of threads.
 struct Scenario {
   Description description;
   std::shared_ptr<const action::Task> task;
-  std::shared_ptr<const belief::Model> model;   ///< with the scenario's kind of belief
-  solver::PlannerOptions planner;               ///< the scenario's defaults
+  std::shared_ptr<const belief::Model> model;  ///< with the scenario's kind of belief
+  solver::PlannerOptions planner;              ///< the scenario's defaults
 
   /// The same model with another kind of belief.
   std::shared_ptr<const belief::Model> model_of(belief::Kind kind) const;
@@ -22,7 +23,8 @@ struct Scenario {
 std::shared_ptr<const Scenario> load(const std::filesystem::path& file);
 std::shared_ptr<const Scenario> parse(const std::string& yaml, const std::filesystem::path& base_dir);
 
-/// Everything wrong with a scenario, without throwing: mistakes in the file, in the robot and the meshes, a start in collision, an unreachable prior, a prior that cuts into the known world.
+/// Everything wrong with a scenario, without throwing: mistakes in the file, in the robot and the meshes, a start in
+/// collision, an unreachable prior, a prior that cuts into the known world.
 std::vector<std::string> check(const std::filesystem::path& file);
 
 }  // namespace tactus::scenario

@@ -9,7 +9,8 @@ namespace tactus::scene {
 using geometry::Pose;
 using geometry::PoseVector;
 
-/// Where the target may be: a box over x, y, z (m), roll, pitch, yaw (rad) of its frame in the robot's base frame, uniformly. A width of 0 fixes a dimension.
+/// Where the target may be: a box over x, y, z (m), roll, pitch, yaw (rad) of its frame in the robot's base frame,
+/// uniformly. A width of 0 fixes a dimension.
 struct Prior {
   PoseVector centre{};
   PoseVector width{};  ///< full widths, >= 0, angles at most 2 pi
@@ -24,8 +25,8 @@ struct Prior {
 /// `angle` moved by multiples of 2 pi to lie nearest to `to`.
 double nearest_angle(double angle, double to);
 
-/// How far a point at most `reach` metres from the frame's origin can move when each of the six numbers changes by up to `half` of it: half the diagonal of the
-/// translations plus the chords of the turns. The radius of a cell of poses.
+/// How far a point at most `reach` metres from the frame's origin can move when each of the six numbers changes by up
+/// to `half` of it: half the diagonal of the translations plus the chords of the turns. The radius of a cell of poses.
 double cell_radius(const PoseVector& half, double reach);
 
 }  // namespace tactus::scene

@@ -15,12 +15,12 @@ using geometry::Vector3;
 
 /// What is searched for, and what "done" means. Const.
 struct Target {
-  Mesh mesh;                                ///< in its own frame, metres
-  Pose target_from_seated = Pose::Identity();   ///< the tool link's pose when the task is done
-  Vector3 approach_axis = Vector3::UnitX(); ///< unit, in the target's frame: the way the tool goes in
-  double approach_depth = 0.02;             ///< m of the last straight motion, along which the tool may be inside the target
-  double position_tolerance = 0.003;        ///< m, of the tool against the seated pose
-  double angle_tolerance = 0.15;            ///< rad
+  Mesh mesh;                                   ///< in its own frame, metres
+  Pose target_from_seated = Pose::Identity();  ///< the tool link's pose when the task is done
+  Vector3 approach_axis = Vector3::UnitX();    ///< unit, in the target's frame: the way the tool goes in
+  double approach_depth = 0.02;       ///< m of the last straight motion, along which the tool may be inside the target
+  double position_tolerance = 0.003;  ///< m, of the tool against the seated pose
+  double angle_tolerance = 0.15;      ///< rad
 };
 
 struct StaticPart {
@@ -28,7 +28,8 @@ struct StaticPart {
   Mesh mesh;  ///< in the robot's base frame
 };
 
-/// Everything around the search that does not change: robot, tool, static world, target, prior. Frames: the robot's base, unless named otherwise. Const, shared.
+/// Everything around the search that does not change: robot, tool, static world, target, prior. Frames: the robot's
+/// base, unless named otherwise. Const, shared.
 struct Scene {
   std::shared_ptr<const robot::RobotModel> robot;
   int tool_link = -1;
@@ -45,16 +46,19 @@ struct Scene {
   bool is_seated(const Pose& base_from_tool, const Pose& base_from_target) const;
 };
 
-/// The frame in which motions are laid out: origin at the prior's central target, z along the approach axis there, x and y as the seated tool's (made square to z).
-/// `region` holds every point that the target may occupy, in this frame.
+/// The frame in which motions are laid out: origin at the prior's central target, z along the approach axis there, x
+/// and y as the seated tool's (made square to z). `region` holds every point that the target may occupy, in this frame.
 struct SearchFrame {
   Pose base_from_search = Pose::Identity();
-  Pose search_from_tool = Pose::Identity();  ///< orientation of the seated tool at the central pose, without translation
+  Pose search_from_tool =
+      Pose::Identity();  ///< orientation of the seated tool at the central pose, without translation
   Box region;
-  Box tool_extent;        ///< of the tool in that orientation, about the tool frame's origin
-  double standoff = 0.0;  ///< z of the tool frame's origin at which the tool is clear of the region by the standoff distance
+  Box tool_extent;  ///< of the tool in that orientation, about the tool frame's origin
+  double standoff =
+      0.0;  ///< z of the tool frame's origin at which the tool is clear of the region by the standoff distance
 
-  /// The tool link's pose in the base frame whose origin stands at `position` (search frame), turned by `turn` rad about z.
+  /// The tool link's pose in the base frame whose origin stands at `position` (search frame), turned by `turn` rad
+  /// about z.
   Pose base_from_tool(const Vector3& position, double turn = 0.0) const;
 };
 

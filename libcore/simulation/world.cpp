@@ -18,7 +18,9 @@ using support::Status;
 
 constexpr double at_start = 1e-6;  // rad or m by which an action may begin off the robot's configuration
 
-bool same(const JointVector& a, const JointVector& b) { return a.size() == b.size() && (a - b).cwiseAbs().maxCoeff() <= at_start; }
+bool same(const JointVector& a, const JointVector& b) {
+  return a.size() == b.size() && (a - b).cwiseAbs().maxCoeff() <= at_start;
+}
 
 }  // namespace
 
@@ -38,13 +40,20 @@ struct World::Solids {
 World::World(std::shared_ptr<const belief::Model> model, const Pose& base_from_target, const WorldOptions& options)
     : model_(std::move(model)), base_from_target_(base_from_target), options_(options) {
   const scene::Scene& scene = model_->task->scene();
-  if (!base_from_target.matrix().allFinite()) throw Error(Status::invalid_argument, "true_pose: found a value that is not finite, expected a pose");
-  if (!(options.fineness >= 1.0)) throw Error(Status::invalid_argument, "world options: fineness: found " + std::to_string(options.fineness) + ", expected at least 1");
+  if (!base_from_target.matrix().allFinite())
+    throw Error(Status::invalid_argument, "true_pose: found a value that is not finite, expected a pose");
+  if (!(options.fineness >= 1.0))
+    throw Error(Status::invalid_argument,
+                "world options: fineness: found " + std::to_string(options.fineness) + ", expected at least 1");
   if (!scene.prior.contains(geometry::pose_vector(base_from_target), 1e-6))
-    throw Error(Status::invalid_argument, "true_pose: found a pose outside the prior, expected one inside it: the target must be where the search looks");
+    throw Error(
+        Status::invalid_argument,
+        "true_pose: found a pose outside the prior, expected one inside it: the target must be where the search looks");
   solids_ = std::make_unique<Solids>(scene);
   q_ = scene.start;
-  if (in_contact(q_)) throw Error(Status::start_in_collision, "true_pose: found a target that the robot touches at its start, expected it to be clear of the robot");
+  if (in_contact(q_))
+    throw Error(Status::start_in_collision,
+                "true_pose: found a target that the robot touches at its start, expected it to be clear of the robot");
 }
 
 World::~World() = default;
@@ -67,13 +76,16 @@ void World::travel_to(const JointVector& q) {
 
 belief::Observation World::execute(const action::Action& action) {
   if (action.path.empty() || !same(action.path.front(), q_))
-    throw Error(Status::invalid_argument, "action: found a path that does not begin where the robot is, expected one planned from its present configuration");
+    throw Error(Status::invalid_argument,
+                "action: found a path that does not begin where the robot is, expected one planned from its present "
+                "configuration");
   const int substeps = static_cast<int>(std::ceil(options_.fineness));
   belief::Observation observation{false, q_};
   for (std::size_t i = 1; i < action.path.size() && !observation.contact; ++i)
     for (int k = 1; k <= substeps && !observation.contact; ++k) {
       const double fraction = static_cast<double>(k) / substeps;
-      travel_to(k == substeps ? action.path[i] : JointVector(action.path[i - 1] + fraction * (action.path[i] - action.path[i - 1])));
+      travel_to(k == substeps ? action.path[i]
+                              : JointVector(action.path[i - 1] + fraction * (action.path[i] - action.path[i - 1])));
       observation = {in_contact(q_), q_};
     }
   if (observation.contact) {

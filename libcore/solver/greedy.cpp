@@ -9,9 +9,12 @@ constexpr double fixed_cost = 0.02;         // m, of the rate rule
 
 double score(const Choice& choice, Greedy rule) {
   switch (rule) {
-    case Greedy::tbl: return choice.information();
-    case Greedy::frontier: return -choice.expected_cost();
-    case Greedy::rate: return choice.information() / (choice.expected_cost() + fixed_cost);
+    case Greedy::tbl:
+      return choice.information();
+    case Greedy::frontier:
+      return -choice.expected_cost();
+    case Greedy::rate:
+      return choice.information() / (choice.expected_cost() + fixed_cost);
   }
   return 0.0;
 }
@@ -25,7 +28,8 @@ double goal_probability(const Choice& choice) {
 
 }  // namespace
 
-std::optional<std::size_t> greedy_choice(const std::vector<Choice>& choices, Greedy rule, const std::vector<bool>& banned) {
+std::optional<std::size_t> greedy_choice(const std::vector<Choice>& choices, Greedy rule,
+                                         const std::vector<bool>& banned) {
   std::optional<std::size_t> best;
   double highest = -1e300;
   bool finishes = false;

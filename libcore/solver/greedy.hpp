@@ -15,6 +15,7 @@ enum class Greedy {
 };
 
 /// The index of the chosen motion; none if none carries information or reaches the goal.
-std::optional<std::size_t> greedy_choice(const std::vector<Choice>& choices, Greedy rule, const std::vector<bool>& banned = {});
+std::optional<std::size_t> greedy_choice(const std::vector<Choice>& choices, Greedy rule,
+                                         const std::vector<bool>& banned = {});
 
 }  // namespace tactus::solver

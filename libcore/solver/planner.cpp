@@ -17,22 +17,26 @@ using support::Error;
 using support::Status;
 
 constexpr double noticeable_bits = 0.1;
-constexpr int patience = 3;                    // queries in which the belief hardly shrank
-constexpr std::size_t least_support = 8;       // poses below which a computed policy is not trusted
+constexpr int patience = 3;               // queries in which the belief hardly shrank
+constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 constexpr std::array<std::pair<Solver, const char*>, 7> names{{{Solver::rtdp_bel, "rtdp-bel"},
-                                                                {Solver::rtdp_inad, "rtdp-inad"},
-                                                                {Solver::rtdp_ad, "rtdp-ad"},
-                                                                {Solver::brtdp_bel, "brtdp-bel"},
-                                                                {Solver::tbl, "tbl"},
-                                                                {Solver::frontier, "frontier"},
-                                                                {Solver::rate, "rate"}}};
+                                                               {Solver::rtdp_inad, "rtdp-inad"},
+                                                               {Solver::rtdp_ad, "rtdp-ad"},
+                                                               {Solver::brtdp_bel, "brtdp-bel"},
+                                                               {Solver::tbl, "tbl"},
+                                                               {Solver::frontier, "frontier"},
+                                                               {Solver::rate, "rate"}}};
 
 std::optional<Greedy> greedy_of(Solver solver) {
   switch (solver) {
-    case Solver::tbl: return Greedy::tbl;
-    case Solver::frontier: return Greedy::frontier;
-    case Solver::rate: return Greedy::rate;
-    default: return std::nullopt;
+    case Solver::tbl:
+      return Greedy::tbl;
+    case Solver::frontier:
+      return Greedy::frontier;
+    case Solver::rate:
+      return Greedy::rate;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -43,10 +47,16 @@ double epsilon_of(const PlannerOptions& options) {
 
 void check(const PlannerOptions& options) {
   const auto fail = [](const std::string& what) { throw Error(Status::invalid_argument, "planner options: " + what); };
-  if (options.solver == Solver::brtdp_bel) fail("solver: found brtdp-bel, which this version does not have, expected rtdp-bel, rtdp-inad, rtdp-ad, tbl, frontier or rate");
-  if (!(options.budget_seconds > 0.0)) fail("budget_seconds: found " + std::to_string(options.budget_seconds) + ", expected a positive number");
-  if (std::isinf(options.budget_seconds) && options.budget_expansions == 0) fail("found no budget, expected seconds or expansions");
-  if (!(options.epsilon >= 0.0 && options.epsilon <= 1.0)) fail("epsilon: found " + std::to_string(options.epsilon) + ", expected 0 to 1");
+  if (options.solver == Solver::brtdp_bel)
+    fail(
+        "solver: found brtdp-bel, which this version does not have, expected rtdp-bel, rtdp-inad, rtdp-ad, tbl, "
+        "frontier or rate");
+  if (!(options.budget_seconds > 0.0))
+    fail("budget_seconds: found " + std::to_string(options.budget_seconds) + ", expected a positive number");
+  if (std::isinf(options.budget_seconds) && options.budget_expansions == 0)
+    fail("found no budget, expected seconds or expansions");
+  if (!(options.epsilon >= 0.0 && options.epsilon <= 1.0))
+    fail("epsilon: found " + std::to_string(options.epsilon) + ", expected 0 to 1");
   if (options.horizon < 1) fail("horizon: found " + std::to_string(options.horizon) + ", expected at least 1");
 }
 
@@ -67,15 +77,18 @@ const char* name_of(Solver solver) {
 /// The partial policy of the last planning call, and the action that was handed out from it.
 struct Planner::Policy {
   Search search;
-  int node = Search::start;              ///< the belief the handed-out action was for
+  int node = Search::start;  ///< the belief the handed-out action was for
   std::size_t choice = 0;
-  std::size_t lead = 0;                  ///< waypoints of the action before the motion proper
+  std::size_t lead = 0;  ///< waypoints of the action before the motion proper
   std::uint64_t action_id = 0;
-  std::size_t history = 0;               ///< observations the belief had
+  std::size_t history = 0;  ///< observations the belief had
 };
 
 Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOptions& options)
-    : model_(std::move(model)), options_(options), library_(std::make_shared<action::ActionLibrary>(*model_->task)), rng_(options.seed) {
+    : model_(std::move(model)),
+      options_(options),
+      library_(std::make_shared<action::ActionLibrary>(*model_->task)),
+      rng_(options.seed) {
   check(options_);
 }
 
@@ -83,7 +96,8 @@ Planner::~Planner() = default;
 
 Answer Planner::query(const belief::Belief& belief) {
   cancelled_.store(false, std::memory_order_relaxed);
-  support::Deadline deadline(options_.budget_seconds, options_.budget_expansions == 0 ? UINT64_MAX : options_.budget_expansions, &cancelled_);
+  support::Deadline deadline(options_.budget_seconds,
+                             options_.budget_expansions == 0 ? UINT64_MAX : options_.budget_expansions, &cancelled_);
   statistics_.from_policy = false;
   statistics_.expansions = 0;
   statistics_.seconds = 0.0;
@@ -109,7 +123,8 @@ Answer Planner::query(const belief::Belief& belief) {
 }
 
 void Planner::note_fruitless(const belief::Belief& belief) {
-  const std::size_t size = belief.phase() == belief::Phase::voxels ? belief.voxels().possibly_occupied().count() : belief.cells().cells().size();
+  const std::size_t size = belief.phase() == belief::Phase::voxels ? belief.voxels().possibly_occupied().count()
+                                                                   : belief.cells().cells().size();
   const double bits = belief.summary().bits;
   const bool shrank = bits < standing_.bits - noticeable_bits;
   const double reference = shrank ? bits : standing_.bits;
@@ -122,9 +137,12 @@ void Planner::note_fruitless(const belief::Belief& belief) {
   standing_.stalls = stalls;
 }
 
-/// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed for it.
+/// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed
+/// for it.
 std::optional<int> Planner::followed(const belief::Belief& belief) {
-  if (!policy_ || standing_.stalls >= patience || greedy_of(options_.solver) || belief.history().size() != policy_->history + 1) return std::nullopt;
+  if (!policy_ || standing_.stalls >= patience || greedy_of(options_.solver) ||
+      belief.history().size() != policy_->history + 1)
+    return std::nullopt;
   const belief::Trace& last = belief.history().back();
   if (last.action_id != policy_->action_id || last.outcome <= policy_->lead) return std::nullopt;
   const std::size_t waypoint = last.outcome - policy_->lead;
@@ -144,8 +162,10 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   BeliefStatePtr start;
   if (belief.phase() == belief::Phase::voxels) {
     std::vector<geometry::Pose> feasible;
-    if (model_->options.likelihood == belief::Likelihood::calibrated) feasible = belief.draw_feasible(model_->options.particles, rng_);
-    start = std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)->start(belief.configuration(), belief.voxels());
+    if (model_->options.likelihood == belief::Likelihood::calibrated)
+      feasible = belief.draw_feasible(model_->options.particles, rng_);
+    start = std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)
+                ->start(belief.configuration(), belief.voxels());
   } else {
     poses_ = belief.draw(model_->options.particles, rng_, poses_, deadline);
     start = std::make_shared<PoseProblem>(model_->task, library_, poses_, belief.summary().bits, options_.cost_per_bit)
@@ -172,7 +192,8 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   for (auto choice = next(); choice; choice = next()) {
     const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
     auto made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited);
-    if (made && std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
+    if (made &&
+        std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
       made->expected_cost = search.q_value(node, *choice, ValueType::inadmissible);
       made->contact_probability = choices[*choice].contact_probability();
       statistics_.lower_bound = search.value(node, ValueType::admissible);

@@ -10,7 +10,15 @@
 
 namespace tactus::solver {
 
-enum class Solver : std::int32_t { rtdp_bel = 1, rtdp_inad = 2, rtdp_ad = 3, brtdp_bel = 4, tbl = 5, frontier = 6, rate = 7 };
+enum class Solver : std::int32_t {
+  rtdp_bel = 1,
+  rtdp_inad = 2,
+  rtdp_ad = 3,
+  brtdp_bel = 4,
+  tbl = 5,
+  frontier = 6,
+  rate = 7
+};
 
 /// "rtdp-bel" and so on, as in scenarios and on the command line; none if there is no such solver.
 std::optional<Solver> solver_from(const std::string& name);
@@ -18,22 +26,22 @@ const char* name_of(Solver solver);
 
 struct PlannerOptions {
   Solver solver = Solver::rtdp_bel;
-  double budget_seconds = 1.0;            ///< a planning call; infinity: none
-  std::uint64_t budget_expansions = 0;    ///< a planning call; 0: none
-  double epsilon = 0.5;                   ///< share of the budget for the admissible values (rtdp-bel)
+  double budget_seconds = 1.0;          ///< a planning call; infinity: none
+  std::uint64_t budget_expansions = 0;  ///< a planning call; 0: none
+  double epsilon = 0.5;                 ///< share of the budget for the admissible values (rtdp-bel)
   int horizon = 8;
   std::uint64_t seed = 1;
-  double cost_per_bit = 0.035;            ///< of the greedy heuristic on poses, in units of cost
+  double cost_per_bit = 0.035;  ///< of the greedy heuristic on poses, in units of cost
 };
 
 /// What the last query took. Counted since the planner was created where it says "total".
 struct PlannerStatistics {
-  bool from_policy = false;         ///< the action was computed by an earlier call
+  bool from_policy = false;  ///< the action was computed by an earlier call
   std::uint64_t expansions = 0;
   double seconds = 0.0;
-  double lower_bound = 0.0;         ///< admissible value at the belief
-  double value = 0.0;               ///< inadmissible value at the belief
-  std::uint64_t total_calls = 0;    ///< that planned
+  double lower_bound = 0.0;       ///< admissible value at the belief
+  double value = 0.0;             ///< inadmissible value at the belief
+  std::uint64_t total_calls = 0;  ///< that planned
   std::uint64_t total_expansions = 0;
   double total_seconds = 0.0;
 };
@@ -44,7 +52,8 @@ struct Answer {
   action::ActionPtr action;
 };
 
-/// Plans on whatever phase a belief is in, within a budget, and follows the partial policy it computed while the observations are the predicted ones. One thread at a time; `cancel` from any.
+/// Plans on whatever phase a belief is in, within a budget, and follows the partial policy it computed while the
+/// observations are the predicted ones. One thread at a time; `cancel` from any.
 class Planner {
  public:
   /// Throws `invalid_argument` for options out of range or a solver that is not there yet.
@@ -53,7 +62,8 @@ class Planner {
 
   Answer query(const belief::Belief& belief);
 
-  /// The query that is running returns soon with what it has, or `cancelled` if it has nothing. Without one, the next query is not affected.
+  /// The query that is running returns soon with what it has, or `cancelled` if it has nothing. Without one, the next
+  /// query is not affected.
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
 
   const PlannerStatistics& statistics() const { return statistics_; }
@@ -68,19 +78,20 @@ class Planner {
   PlannerOptions options_;
   std::shared_ptr<action::ActionLibrary> library_;
   support::Rng rng_;
-  /// An action that left the belief and the configuration as they were is not handed out again until something changes; and after some queries in which the belief hardly shrank only anchored
-  /// motions are: the poses planned on promise more of small touches than the cells can take in.
+  /// An action that left the belief and the configuration as they were is not handed out again until something changes;
+  /// and after some queries in which the belief hardly shrank only anchored motions are: the poses planned on promise
+  /// more of small touches than the cells can take in.
   void note_fruitless(const belief::Belief& belief);
 
   struct Standing {
     robot::JointVector q;
-    std::size_t size = 0;       ///< cells or voxels
+    std::size_t size = 0;  ///< cells or voxels
     std::vector<std::uint64_t> fruitless;
-    double bits = 1e300;        ///< when the belief last shrank noticeably
-    int stalls = 0;             ///< queries since then
+    double bits = 1e300;  ///< when the belief last shrank noticeably
+    int stalls = 0;       ///< queries since then
   };
   Standing standing_;
-  std::vector<geometry::Pose> poses_;   ///< of the last planning call on poses
+  std::vector<geometry::Pose> poses_;  ///< of the last planning call on poses
   std::unique_ptr<Policy> policy_;
   std::atomic<bool> cancelled_{false};
   PlannerStatistics statistics_;

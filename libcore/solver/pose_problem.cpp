@@ -55,8 +55,11 @@ class PoseState : public BeliefState {
     };
     for (const MotionPtr& motion : problem_->anchored(q_)) consider(motion);
     for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);
-    const std::size_t attempts = at_start_ ? static_cast<std::size_t>(problem_->task_->options().actions.insertion_candidates) : inner_candidates;
-    for (const std::size_t pose : problem_->insertion_candidates(members_, attempts)) consider(problem_->insertion_at(pose, q_));
+    const std::size_t attempts = at_start_
+                                     ? static_cast<std::size_t>(problem_->task_->options().actions.insertion_candidates)
+                                     : inner_candidates;
+    for (const std::size_t pose : problem_->insertion_candidates(members_, attempts))
+      consider(problem_->insertion_at(pose, q_));
     return result;
   }
 
@@ -64,7 +67,8 @@ class PoseState : public BeliefState {
     Bitset left = problem_->predictions_.subset(choice.motion, members_, outcome.waypoint);
     const auto& path = choice.motion->path;
     const bool contact = outcome.waypoint < path.size();
-    return std::make_shared<PoseState>(problem_, contact ? path[outcome.waypoint - 1] : path.back(), std::move(left), false);
+    return std::make_shared<PoseState>(problem_, contact ? path[outcome.waypoint - 1] : path.back(), std::move(left),
+                                       false);
   }
 
  private:
@@ -77,7 +81,9 @@ class PoseState : public BeliefState {
 
   Choice weigh(const MotionPtr& motion) const {
     const auto total = static_cast<double>(members_.count());
-    const double lead = motion->anchored ? action::transit_cost(*problem_->task_, problem_->task_->base_from_tool(q_), motion->base_from_start) : 0.0;
+    const double lead = motion->anchored ? action::transit_cost(*problem_->task_, problem_->task_->base_from_tool(q_),
+                                                                motion->base_from_start)
+                                         : 0.0;
     Choice choice{motion, {}};
     for (const auto& [waypoint, group] : problem_->predictions_.split(motion, members_)) {
       Outcome outcome;
@@ -85,8 +91,9 @@ class PoseState : public BeliefState {
       outcome.probability = static_cast<double>(group.size()) / total;
       const std::size_t reached = std::min(waypoint, motion->path.size() - 1);
       outcome.cost = problem_->task_->options().cost.action + lead + motion->cost_to[reached];
-      outcome.goal = waypoint == motion->path.size() && motion->kind == action::Kind::insertion &&
-                     std::all_of(group.begin(), group.end(), [&](std::size_t pose) { return problem_->seated(*motion, pose); });
+      outcome.goal =
+          waypoint == motion->path.size() && motion->kind == action::Kind::insertion &&
+          std::all_of(group.begin(), group.end(), [&](std::size_t pose) { return problem_->seated(*motion, pose); });
       if (!outcome.goal) outcome.heuristic = group_heuristic(*motion, waypoint, group);
       choice.outcomes.push_back(outcome);
     }
@@ -106,9 +113,13 @@ class PoseState : public BeliefState {
   bool at_start_;
 };
 
-PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library, std::vector<Pose> poses, double bits,
-                         double cost_per_bit)
-    : task_(std::move(task)), library_(std::move(library)), predictions_(task_, std::move(poses)), bits_(bits), cost_per_bit_(cost_per_bit) {
+PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
+                         std::vector<Pose> poses, double bits, double cost_per_bit)
+    : task_(std::move(task)),
+      library_(std::move(library)),
+      predictions_(task_, std::move(poses)),
+      bits_(bits),
+      cost_per_bit_(cost_per_bit) {
   for (const Pose& pose : predictions_.poses()) seated_.push_back(task_->scene().seated(pose));
 }
 
@@ -144,7 +155,9 @@ std::vector<std::size_t> PoseProblem::insertion_candidates(const Bitset& members
   std::vector<std::size_t> left, chosen;
   members.for_each([&](std::size_t pose) { left.push_back(pose); });
   const auto near = [&](std::size_t a, std::size_t b) {
-    return (seated_[a].translation() - seated_[b].translation()).norm() + lever * geometry::angle_between(seated_[a], seated_[b]) < same_seat;
+    return (seated_[a].translation() - seated_[b].translation()).norm() +
+               lever * geometry::angle_between(seated_[a], seated_[b]) <
+           same_seat;
   };
   while (!left.empty() && chosen.size() < most) {
     std::size_t best = left.front();
@@ -173,7 +186,9 @@ geometry::Box PoseProblem::region() const {
   const geometry::Box local = geometry::bounds(task_->scene().target.mesh);
   for (const Pose& pose : predictions_.poses())
     for (int corner = 0; corner < 8; ++corner) {
-      const geometry::Vector3 p(corner & 1 ? local.high.x() : local.low.x(), corner & 2 ? local.high.y() : local.low.y(), corner & 4 ? local.high.z() : local.low.z());
+      const geometry::Vector3 p(corner & 1 ? local.high.x() : local.low.x(),
+                                corner & 2 ? local.high.y() : local.low.y(),
+                                corner & 4 ? local.high.z() : local.low.z());
       box.add(search_from_base * (pose * p));
     }
   return box;

@@ -9,12 +9,13 @@
 
 namespace tactus::solver {
 
-/// What planning on poses shares between its beliefs: the poses drawn for one planning call, the motions made for them, and where each pose is first touched on each motion.
-/// One thread.
+/// What planning on poses shares between its beliefs: the poses drawn for one planning call, the motions made for them,
+/// and where each pose is first touched on each motion. One thread.
 class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
  public:
   /// `bits`: log2 of how many tolerances the full belief spans; `cost_per_bit` in units of cost.
-  PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library, std::vector<geometry::Pose> poses, double bits, double cost_per_bit);
+  PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
+              std::vector<geometry::Pose> poses, double bits, double cost_per_bit);
 
   /// The belief at the start: all poses.
   BeliefStatePtr start(const robot::JointVector& q);
@@ -31,7 +32,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   std::shared_ptr<const action::Task> task_;
   std::shared_ptr<action::ActionLibrary> library_;
   Predictions predictions_;
-  std::vector<geometry::Pose> seated_;       ///< tool link, base frame, by pose
+  std::vector<geometry::Pose> seated_;  ///< tool link, base frame, by pose
   double bits_;
   double cost_per_bit_;
   std::vector<action::MotionPtr> anchored_;

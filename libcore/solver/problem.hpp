@@ -9,7 +9,8 @@
 
 namespace tactus::solver {
 
-/// The two value functions of the paper's Algorithm 1: one from a heuristic that never overestimates, one from a greedy one.
+/// The two value functions of the paper's Algorithm 1: one from a heuristic that never overestimates, one from a greedy
+/// one.
 enum class ValueType { admissible = 0, inadmissible = 1 };
 using Values = std::array<double, 2>;  ///< indexed by `ValueType`, in units of cost
 
@@ -17,32 +18,35 @@ using Values = std::array<double, 2>;  ///< indexed by `ValueType`, in units of 
 struct Outcome {
   std::size_t waypoint = 0;
   double probability = 0.0;
-  double cost = 0.0;     ///< of the motion up to there, the way to its start and back to the last free waypoint
-  bool goal = false;     ///< the successor needs nothing more
-  Values heuristic{};    ///< of the successor; 0 at the goal
+  double cost = 0.0;   ///< of the motion up to there, the way to its start and back to the last free waypoint
+  bool goal = false;   ///< the successor needs nothing more
+  Values heuristic{};  ///< of the successor; 0 at the goal
 };
 
 /// A motion weighed at a belief. The outcomes' probabilities sum to one.
 struct Choice {
   action::MotionPtr motion;
   std::vector<Outcome> outcomes;
-  double expected_cost() const;          ///< C(b, a)
+  double expected_cost() const;  ///< C(b, a)
   double contact_probability() const;
-  double information() const;            ///< expected bits by which the outcomes split the belief
+  double information() const;  ///< expected bits by which the outcomes split the belief
 };
 
-/// What a bit is worth to h_inad: a half more than what the motion with the best rate of expected bits to expected cost pays for one, so that motion is worth making; at least `least`.
-double greedy_cost_per_bit(const std::vector<double>& expected_cost, const std::vector<double>& expected_bits, double least);
+/// What a bit is worth to h_inad: a half more than what the motion with the best rate of expected bits to expected cost
+/// pays for one, so that motion is worth making; at least `least`.
+double greedy_cost_per_bit(const std::vector<double>& expected_cost, const std::vector<double>& expected_bits,
+                           double least);
 
-/// A belief as the solver sees it, whichever representation is behind it. Immutable, but for what is computed on first use.
+/// A belief as the solver sees it, whichever representation is behind it. Immutable, but for what is computed on first
+/// use.
 class BeliefState {
  public:
   virtual ~BeliefState() = default;
 
-  virtual support::Hash128 hash() const = 0;   ///< equal for equal beliefs
+  virtual support::Hash128 hash() const = 0;  ///< equal for equal beliefs
   virtual const robot::JointVector& configuration() const = 0;
   virtual Values heuristic() const = 0;
-  virtual std::size_t support_size() const = 0;   ///< poses or voxels that the belief rests on
+  virtual std::size_t support_size() const = 0;  ///< poses or voxels that the belief rests on
 
   /// Every motion worth considering with what may come of it: the expensive part of an expansion.
   virtual std::vector<Choice> choices() const = 0;

@@ -37,7 +37,8 @@ double Choice::information() const {
   return bits;
 }
 
-double greedy_cost_per_bit(const std::vector<double>& expected_cost, const std::vector<double>& expected_bits, double least) {
+double greedy_cost_per_bit(const std::vector<double>& expected_cost, const std::vector<double>& expected_bits,
+                           double least) {
   constexpr double overestimate = 1.5;
   double lowest = 1e300;
   for (std::size_t i = 0; i < expected_cost.size(); ++i)
@@ -45,7 +46,9 @@ double greedy_cost_per_bit(const std::vector<double>& expected_cost, const std::
   return lowest < 1e300 ? std::max(least, overestimate * lowest) : least;
 }
 
-Search::Search(BeliefStatePtr start_state, const SearchOptions& options) : options_(options) { intern(std::move(start_state)); }
+Search::Search(BeliefStatePtr start_state, const SearchOptions& options) : options_(options) {
+  intern(std::move(start_state));
+}
 
 void Search::run(support::Deadline& deadline) {
   if (!nodes_[start].expanded) expand(start, deadline);

@@ -14,8 +14,9 @@ struct SearchOptions {
   int horizon = 8;       ///< motions a trial goes deep
 };
 
-/// The paper's Algorithm 1, Modified RTDP-Bel: trials from the start that update both values of every belief they pass, choose the motion by one of them and follow the most likely
-/// outcome. What has been computed by the deadline is a partial policy. One thread.
+/// The paper's Algorithm 1, Modified RTDP-Bel: trials from the start that update both values of every belief they pass,
+/// choose the motion by one of them and follow the most likely outcome. What has been computed by the deadline is a
+/// partial policy. One thread.
 class Search {
  public:
   Search(BeliefStatePtr start, const SearchOptions& options);
@@ -28,7 +29,8 @@ class Search {
 
   static constexpr int start = 0;
 
-  /// The best motion at an expanded belief (by the inadmissible values), leaving out the banned ones; none if no motion is left. A choice's index.
+  /// The best motion at an expanded belief (by the inadmissible values), leaving out the banned ones; none if no motion
+  /// is left. A choice's index.
   std::optional<std::size_t> best(int node, const std::vector<bool>& banned = {}) const;
 
   bool expanded(int node) const { return nodes_[node].expanded; }

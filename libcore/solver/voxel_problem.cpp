@@ -21,15 +21,16 @@ using robot::JointVector;
 
 namespace {
 
-constexpr double overlap_epsilon = 1.0;   // the paper's epsilon, in voxels
+constexpr double overlap_epsilon = 1.0;  // the paper's epsilon, in voxels
 constexpr double least_probability = 1e-6;
 constexpr int lines_per_side = 9;
-constexpr std::size_t least_poses = 10;   // below, the paper's likelihood answers
+constexpr std::size_t least_poses = 10;  // below, the paper's likelihood answers
 
 /// How many voxels of a set lie in a box: sums over all boxes from the grid's corner.
 class BoxCounts {
  public:
-  BoxCounts(const Bitset& set, const VoxelGrid& grid) : grid_(grid), sums_(std::size_t(grid.shape()[0] + 1) * (grid.shape()[1] + 1) * (grid.shape()[2] + 1)) {
+  BoxCounts(const Bitset& set, const VoxelGrid& grid)
+      : grid_(grid), sums_(std::size_t(grid.shape()[0] + 1) * (grid.shape()[1] + 1) * (grid.shape()[2] + 1)) {
     const auto [nx, ny, nz] = grid.shape();
     for (int z = 0; z < nz; ++z)
       for (int y = 0; y < ny; ++y) {
@@ -56,7 +57,8 @@ class BoxCounts {
 
  private:
   std::size_t index(int x, int y, int z) const {
-    return std::size_t(x) + std::size_t(grid_.shape()[0] + 1) * (std::size_t(y) + std::size_t(grid_.shape()[1] + 1) * std::size_t(z));
+    return std::size_t(x) +
+           std::size_t(grid_.shape()[0] + 1) * (std::size_t(y) + std::size_t(grid_.shape()[1] + 1) * std::size_t(z));
   }
   std::int32_t& at(int x, int y, int z) { return sums_[index(x, y, z)]; }
   std::int32_t at(int x, int y, int z) const { return sums_[index(x, y, z)]; }
@@ -73,12 +75,14 @@ Box box_of(const Bitset& set, const VoxelGrid& grid, const Pose& frame_from_base
 
 }  // namespace
 
-double contact_likelihood(double entered, double possibly_occupied, double target_voxels, double diameter, const std::vector<ContactEvidence>& contacts) {
+double contact_likelihood(double entered, double possibly_occupied, double target_voxels, double diameter,
+                          const std::vector<ContactEvidence>& contacts) {
   if (entered <= 0.0) return 0.0;
   const double others = possibly_occupied - target_voxels;
   double likelihood = others <= entered ? 1.0 : entered / others;
   for (const ContactEvidence& c : contacts)
-    likelihood *= (c.overlap + overlap_epsilon) / (c.size + overlap_epsilon) * std::max(0.0, 1.0 - std::max(0.0, c.distance) / diameter);
+    likelihood *= (c.overlap + overlap_epsilon) / (c.size + overlap_epsilon) *
+                  std::max(0.0, 1.0 - std::max(0.0, c.distance) / diameter);
   return std::min(1.0, likelihood);
 }
 
@@ -111,7 +115,11 @@ class VoxelState : public BeliefState {
   }
   const JointVector& configuration() const override { return q_; }
   std::size_t support_size() const override { return count_; }
-  Values heuristic() const override { return done() ? Values{} : problem_->heuristic(static_cast<double>(count_), nearest(problem_->model_->task->base_from_tool(q_))); }
+  Values heuristic() const override {
+    return done()
+               ? Values{}
+               : problem_->heuristic(static_cast<double>(count_), nearest(problem_->model_->task->base_from_tool(q_)));
+  }
 
   std::vector<Choice> choices() const override {
     if (done()) return {};
@@ -140,7 +148,8 @@ class VoxelState : public BeliefState {
     next.remove_free(swept.voxels, swept.entered_by(outcome.waypoint - 1));
     const double step = motion.bodies.travelled(outcome.waypoint, 0) - motion.bodies.travelled(outcome.waypoint - 1, 0);
     next.add_contact(contact::contact_candidates(task.bodies(), motion.bodies, outcome.waypoint, grid(), step));
-    return std::make_shared<VoxelState>(problem_, motion.path[outcome.waypoint - 1], std::move(next), std::move(feasible));
+    return std::make_shared<VoxelState>(problem_, motion.path[outcome.waypoint - 1], std::move(next),
+                                        std::move(feasible));
   }
 
  private:
@@ -173,20 +182,25 @@ class VoxelState : public BeliefState {
           evidence[c].distance = std::min(evidence[c].distance, static_cast<double>(contacts[c].distance[v]));
         }
       }
-      for (std::size_t c = 0; c < contacts.size(); ++c) evidence[c].size = static_cast<double>(contacts[c].candidates.count());
-      likelihood[i] = contact_likelihood(entered, static_cast<double>(count_), voxels_.model().target_voxels, voxels_.model().diameter, evidence);
+      for (std::size_t c = 0; c < contacts.size(); ++c)
+        evidence[c].size = static_cast<double>(contacts[c].candidates.count());
+      likelihood[i] = contact_likelihood(entered, static_cast<double>(count_), voxels_.model().target_voxels,
+                                         voxels_.model().diameter, evidence);
       removed[i] = total += entered;
     }
-    return choice_of(motion, calibrated() ? shares(motion) : first_contact_probabilities(likelihood), removed, entered_box, counts);
+    return choice_of(motion, calibrated() ? shares(motion) : first_contact_probabilities(likelihood), removed,
+                     entered_box, counts);
   }
 
   bool calibrated() const { return feasible_.count() >= least_poses; }
 
-  /// The calibrated likelihood: of the feasible poses, the share that is first touched at each waypoint, and last the share that is not.
+  /// The calibrated likelihood: of the feasible poses, the share that is first touched at each waypoint, and last the
+  /// share that is not.
   std::vector<double> shares(const MotionPtr& motion) const {
     std::vector<double> result(motion->path.size() + 1, 0.0);
     const auto total = static_cast<double>(feasible_.count());
-    for (const auto& [waypoint, group] : problem_->predictions_.split(motion, feasible_)) result[waypoint] = static_cast<double>(group.size()) / total;
+    for (const auto& [waypoint, group] : problem_->predictions_.split(motion, feasible_))
+      result[waypoint] = static_cast<double>(group.size()) / total;
     return result;
   }
 
@@ -194,7 +208,8 @@ class VoxelState : public BeliefState {
                    const std::vector<Box>& entered_box, const BoxCounts& counts) const {
     const action::Task& task = *problem_->model_->task;
     const std::size_t waypoints = motion->path.size();
-    const double lead = motion->anchored ? action::transit_cost(task, task.base_from_tool(q_), motion->base_from_start) : 0.0;
+    const double lead =
+        motion->anchored ? action::transit_cost(task, task.base_from_tool(q_), motion->base_from_start) : 0.0;
     const double within = voxels_.model().diameter + grid().half_diagonal();
     const auto delta = static_cast<double>(problem_->model_->options.delta);
     Choice choice{motion, {}};
@@ -227,12 +242,17 @@ class VoxelState : public BeliefState {
   std::shared_ptr<VoxelProblem> problem_;
   JointVector q_;
   VoxelBelief voxels_;
-  Bitset feasible_;    ///< of the problem's poses
+  Bitset feasible_;  ///< of the problem's poses
   std::size_t count_;
 };
 
-VoxelProblem::VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library, std::vector<Pose> poses, double cost_per_bit)
-    : model_(std::move(model)), library_(std::move(library)), predictions_(model_->task, std::move(poses)), least_cost_per_bit_(cost_per_bit), cost_per_bit_(cost_per_bit) {
+VoxelProblem::VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library,
+                           std::vector<Pose> poses, double cost_per_bit)
+    : model_(std::move(model)),
+      library_(std::move(library)),
+      predictions_(model_->task, std::move(poses)),
+      least_cost_per_bit_(cost_per_bit),
+      cost_per_bit_(cost_per_bit) {
   for (const Vector3& v : model_->task->scene().tool.vertices) tool_reach_ = std::max(tool_reach_, v.norm());
 }
 
@@ -244,7 +264,8 @@ BeliefStatePtr VoxelProblem::start(const JointVector& q, const VoxelBelief& voxe
   for (const Choice& choice : state->choices()) {
     cost.push_back(choice.expected_cost());
     gained.push_back(bits);
-    for (const Outcome& outcome : choice.outcomes) gained.back() -= outcome.probability * (outcome.heuristic[1] - outcome.heuristic[0]);
+    for (const Outcome& outcome : choice.outcomes)
+      gained.back() -= outcome.probability * (outcome.heuristic[1] - outcome.heuristic[0]);
   }
   cost_per_bit_ = greedy_cost_per_bit(cost, gained, least_cost_per_bit_);
   return state;
@@ -261,7 +282,8 @@ const SweptVoxels& VoxelProblem::swept(const MotionPtr& motion) {
 
 const std::vector<MotionPtr>& VoxelProblem::anchored(const VoxelBelief& voxels, const JointVector& near) {
   if (!anchored_made_) {
-    const Box box = box_of(voxels.possibly_occupied(), voxels.model().grid, model_->task->frame().base_from_search.inverse());
+    const Box box =
+        box_of(voxels.possibly_occupied(), voxels.model().grid, model_->task->frame().base_from_search.inverse());
     anchored_ = action::probes(*model_->task, box.inflated(0.5 * voxels.model().grid.pitch()), near, lines_per_side);
   }
   anchored_made_ = true;

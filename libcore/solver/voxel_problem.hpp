@@ -9,22 +9,27 @@
 
 namespace tactus::solver {
 
-/// The likelihood of the paper along one motion: for each waypoint, the probability that the first contact is there, and last that there is none; given how many voxels of PO
-/// each waypoint newly enters (|S n PO|), |PO|, N, and for each recorded contact the overlap and the distance of S to it (equations PO likelihood, C likelihood and their product along the motion).
-/// Sums to one.
+/// The likelihood of the paper along one motion: for each waypoint, the probability that the first contact is there,
+/// and last that there is none; given how many voxels of PO each waypoint newly enters (|S n PO|), |PO|, N, and for
+/// each recorded contact the overlap and the distance of S to it (equations PO likelihood, C likelihood and their
+/// product along the motion). Sums to one.
 struct ContactEvidence {
-  double overlap = 0.0;    ///< |S(q_i, a) n S(q_j, a_j)|
-  double size = 0.0;       ///< |S(q_j, a_j)|
-  double distance = 0.0;   ///< dist(S(q_i, a), S(q_j, a_j)), m
+  double overlap = 0.0;   ///< |S(q_i, a) n S(q_j, a_j)|
+  double size = 0.0;      ///< |S(q_j, a_j)|
+  double distance = 0.0;  ///< dist(S(q_i, a), S(q_j, a_j)), m
 };
-double contact_likelihood(double entered, double possibly_occupied, double target_voxels, double diameter, const std::vector<ContactEvidence>& contacts);
+double contact_likelihood(double entered, double possibly_occupied, double target_voxels, double diameter,
+                          const std::vector<ContactEvidence>& contacts);
 std::vector<double> first_contact_probabilities(const std::vector<double>& contact_likelihood_at);
 
-/// What planning on voxels shares between its beliefs: the motions made for one planning call and the voxels each sweeps. One thread.
+/// What planning on voxels shares between its beliefs: the motions made for one planning call and the voxels each
+/// sweeps. One thread.
 class VoxelProblem : public std::enable_shared_from_this<VoxelProblem> {
  public:
-  /// `poses`: feasible poses of the target, for the calibrated likelihood; empty for the paper's. `cost_per_bit`: the least that a bit is worth to h_inad.
-  VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library, std::vector<geometry::Pose> poses, double cost_per_bit);
+  /// `poses`: feasible poses of the target, for the calibrated likelihood; empty for the paper's. `cost_per_bit`: the
+  /// least that a bit is worth to h_inad.
+  VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library,
+               std::vector<geometry::Pose> poses, double cost_per_bit);
 
   BeliefStatePtr start(const robot::JointVector& q, const belief::VoxelBelief& voxels);
 
@@ -38,8 +43,8 @@ class VoxelProblem : public std::enable_shared_from_this<VoxelProblem> {
   std::shared_ptr<action::ActionLibrary> library_;
   Predictions predictions_;
   double least_cost_per_bit_;
-  double cost_per_bit_;       ///< of h_inad, from the greedy rate at the start
-  double tool_reach_ = 0.0;   ///< m from the tool frame's origin to the tool's farthest vertex
+  double cost_per_bit_;      ///< of h_inad, from the greedy rate at the start
+  double tool_reach_ = 0.0;  ///< m from the tool frame's origin to the tool's farthest vertex
   std::vector<action::MotionPtr> anchored_;
   bool anchored_made_ = false;
   std::unordered_map<const action::Motion*, contact::SweptVoxels> swept_;

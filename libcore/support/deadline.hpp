@@ -8,8 +8,8 @@
 
 namespace tactus::support {
 
-/// How long a computation may go on: wall-clock seconds, counted expansions, or until somebody cancels. Any of them may be
-/// without limit. A budget in expansions gives the same result on every machine; one in seconds can't.
+/// How long a computation may go on: wall-clock seconds, counted expansions, or until somebody cancels. Any of them may
+/// be without limit. A budget in expansions gives the same result on every machine; one in seconds can't.
 class Deadline {
  public:
   using Clock = std::chrono::steady_clock;
@@ -20,8 +20,8 @@ class Deadline {
 
   void count_expansion() { ++used_; }
   bool cancelled() const;
-  bool spent() const;               ///< out of time, out of expansions, or cancelled
-  double used_fraction() const;     ///< of the tighter budget, in [0, 1]; 0 without one
+  bool spent() const;            ///< out of time, out of expansions, or cancelled
+  double used_fraction() const;  ///< of the tighter budget, in [0, 1]; 0 without one
   double elapsed_seconds() const;
   std::uint64_t expansions() const { return used_; }
 

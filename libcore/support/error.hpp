@@ -8,7 +8,8 @@
 
 namespace tactus::support {
 
-/// Why something could not be done. The values are those of `tactus_status` in `include/tactus/status.h` and never change.
+/// Why something could not be done. The values are those of `tactus_status` in `include/tactus/status.h` and never
+/// change.
 enum class Status : std::int32_t {
   ok = 0,
   // 1..99: not an error, but no result of the usual kind
@@ -38,7 +39,8 @@ enum class Status : std::int32_t {
   internal = 901,
 };
 
-/// The one exception of the core. `what()` is a sentence for a person: what was wrong, where, what was found, what was expected.
+/// The one exception of the core. `what()` is a sentence for a person: what was wrong, where, what was found, what was
+/// expected.
 class Error : public std::runtime_error {
  public:
   Error(Status status, const std::string& what) : std::runtime_error(what), status_(status) {}

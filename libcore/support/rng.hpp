@@ -6,18 +6,18 @@
 
 namespace tactus::support {
 
-/// A random number generator (xoshiro256++) whose sequence is the same on every machine and compiler. Not thread-safe: give each
-/// thread its own, by `fork`.
+/// A random number generator (xoshiro256++) whose sequence is the same on every machine and compiler. Not thread-safe:
+/// give each thread its own, by `fork`.
 class Rng {
  public:
   explicit Rng(std::uint64_t seed);
 
-  std::uint64_t next();                         ///< 64 random bits
-  double uniform();                             ///< in [0, 1)
-  double uniform(double low, double high);      ///< in [low, high)
-  std::uint64_t below(std::uint64_t limit);     ///< in {0 .. limit-1}; `limit` > 0
-  double normal();                              ///< standard normal
-  Rng fork();                                   ///< an independent generator; advances this one
+  std::uint64_t next();                      ///< 64 random bits
+  double uniform();                          ///< in [0, 1)
+  double uniform(double low, double high);   ///< in [low, high)
+  std::uint64_t below(std::uint64_t limit);  ///< in {0 .. limit-1}; `limit` > 0
+  double normal();                           ///< standard normal
+  Rng fork();                                ///< an independent generator; advances this one
 
   const std::array<std::uint64_t, 4>& state() const { return state_; }
   void restore(const std::array<std::uint64_t, 4>& state) { state_ = state; }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The structs and codes as they were released. Fields are appended only: a line here never changes, and a new field adds
- * one. Compiled, not run. */
+/* The structs and codes as they were released. Fields are appended only: a line here never changes, and a new field
+ * adds one. Compiled, not run. */
 #include <stddef.h>
 #include <tactus/tactus.h>
 
