@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tactus/belief.h"
 
-#include "belief/contains.hpp"
 #include "handles.hpp"
 
 using namespace tactus;
@@ -165,7 +164,7 @@ tactus_status tactus_belief_is_goal(const tactus_belief* belief, int32_t* goal) 
 tactus_status tactus_belief_contains(const tactus_belief* belief, const double pose[7], int32_t* contained) noexcept {
   return guarded(__func__, [&] {
     const Held held(belief);
-    required(contained, "contained") = belief::contains(held.belief, capi::pose_from(pose, "pose")) ? 1 : 0;
+    required(contained, "contained") = held.belief.contains(capi::pose_from(pose, "pose")) ? 1 : 0;
   });
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "snapshot.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +11,14 @@ enum { most_points = 3000 };
 
 typedef tactus_status (*get_rows)(const tactus_belief*, double*, size_t, size_t*);
 
-/* Some of the rows that `get` gives, evenly spread, the first three numbers of each. */
+/* A well-mixed number [Steele et al., SplitMix64]: an even stride would draw stripes into a regular grid. */
+static uint64_t mixed(uint64_t x) {
+  x = (x + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/* Some of the rows that `get` gives, picked without a pattern, the first three numbers of each. */
 static bool take_points(const tactus_belief* belief, get_rows get, size_t width, belief_snapshot* snapshot) {
   size_t rows = 0;
   if (get(belief, NULL, 0, &rows) != TACTUS_OK) return false;
@@ -19,10 +27,10 @@ static bool take_points(const tactus_belief* belief, get_rows get, size_t width,
     free(all);
     return false;
   }
-  const size_t stride = (rows + most_points - 1) / most_points;
   snapshot->points = all; /* the rows that stay move to its front */
   snapshot->count = 0;
-  for (size_t r = 0; r < rows; r += stride) memmove(all + 3 * snapshot->count++, all + r * width, 3 * sizeof *all);
+  for (size_t r = 0; r < rows; ++r)
+    if (mixed(r) % rows < most_points) memmove(all + 3 * snapshot->count++, all + r * width, 3 * sizeof *all);
   double* shrunk = realloc(all, (3 * snapshot->count + 1) * sizeof *all);
   if (shrunk != NULL) snapshot->points = shrunk;
   return true;

@@ -28,6 +28,7 @@ Belief::Belief(std::shared_ptr<const Model> model, const JointVector& q) : model
     voxels_.emplace(model_->voxels);
   else
     cells_.emplace(task(), model_->options.cells, [](const Pose&, double) { return true; });
+  if (voxels_ && voxels_->possibly_occupied().count() <= model_->options.delta) hand_over();
 }
 
 void Belief::check_configuration(const JointVector& q, const char* argument) const {
@@ -91,7 +92,7 @@ bool Belief::is_goal() const {
   if (!cells_) return false;
   const Pose base_from_tool = task().base_from_tool(q_);
   return std::all_of(cells_->cells().begin(), cells_->cells().end(), [&](const Cell& cell) {
-    return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre));
+    return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre), cells_->half_width(cell));
   });
 }
 

@@ -82,63 +82,7 @@ void describe_voxels(const VoxelBelief& voxels, const Task& task, Summary& summa
   summary.bits = std::log2(std::max(1.0, poses));
 }
 
-constexpr double tolerance = 1e-9;  // m and rad
-
-/// Brings an angle into a cell, by whole turns first.
-double brought_into(double angle, double centre, double half) {
-  return std::clamp(scene::nearest_angle(angle, centre), centre - half, centre + half);
-}
-
-/// Descriptions of the pose's rotation of which one lies in the cell if any does: the usual one, the one turned over,
-/// and where a pitch of a quarter turn shows no more than the difference (or the sum) of roll and yaw, the one nearest
-/// to the cell's centre.
-std::array<PoseVector, 3> descriptions(const Pose& pose, const PoseVector& centre, const PoseVector& half) {
-  constexpr double pi = std::numbers::pi;
-  const PoseVector v = geometry::pose_vector(pose);
-  PoseVector over = v, shared = v;
-  over[3] += pi, over[4] = pi - v[4], over[5] += pi;
-  const double sign = v[4] > 0.0 ? 1.0 : -1.0, shown = v[5] - sign * v[3];
-  shared[5] = brought_into(shown + sign * centre[3], centre[5], half[5]);
-  shared[3] = sign * (shared[5] - shown);
-  return {v, over, shared};
-}
-
-/// Whether some roll, pitch and yaw within `half` of the cell's centre give the pose: descriptions are brought into the
-/// cell, and compared as poses.
-bool holds(const PoseVector& centre, const PoseVector& half, const Pose& pose) {
-  for (int d = 0; d < 3; ++d)
-    if (!(std::abs(pose.translation()[d] - centre[d]) <= half[d] + tolerance)) return false;
-  for (PoseVector v : descriptions(pose, centre, half)) {
-    for (int d = 3; d < 6; ++d) v[d] = brought_into(v[d], centre[d], half[d]);
-    if ((geometry::pose_from(v).linear() - pose.linear()).cwiseAbs().maxCoeff() <= tolerance) return true;
-  }
-  return false;
-}
-
-/// Whether every voxel centre inside the target is possibly occupied.
-bool fits(const VoxelBelief& voxels, const geometry::DistanceField& field, const Pose& base_from_target) {
-  const VoxelGrid& grid = voxels.model().grid;
-  const geometry::Box& local = field.tree().box();
-  const Vector3 centre = base_from_target * local.centre();
-  const Vector3 half = base_from_target.linear().cwiseAbs() * (0.5 * local.size());
-  const Pose target_from_base = base_from_target.inverse();
-  bool all = true;
-  grid.for_each_in({centre - half, centre + half}, [&](std::size_t voxel, const Vector3& p) {
-    if (!all || voxels.possibly_occupied().test(voxel)) return;
-    const Vector3 q = target_from_base * p;
-    all = field.bounds(q).lower >= -tolerance || field.exact(q) >= -tolerance;
-  });
-  return all;
-}
-
 }  // namespace
-
-bool Belief::contains(const Pose& base_from_target) const {
-  if (!base_from_target.matrix().allFinite()) return false;
-  if (!cells_) return fits(*voxels_, task().target_contact().field(), base_from_target);
-  return std::any_of(cells_->cells().begin(), cells_->cells().end(),
-                     [&](const Cell& cell) { return holds(cell.centre, cells_->half_width(cell), base_from_target); });
-}
 
 Summary Belief::summary() const {
   Summary summary;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/error.hpp"
+#include "support/rng.hpp"
 
 namespace tactus::belief {
 namespace {
@@ -45,6 +46,8 @@ JointVector backed_off(const Task& task, const JointVector& from, const JointVec
 Stop locate(const Task& task, const Action& action, const Observation& observation) {
   check(task, observation);
   const JointPath& path = action.path;
+  const double allowed = std::max(0.001, task.options().stop_tolerance);
+  const bool first_pass = observation.contact || bound(task, path.back(), observation.q) > allowed;
   Stop best;
   double nearest = (path.front() - observation.q).norm();
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -52,14 +55,14 @@ Stop locate(const Task& task, const Action& action, const Observation& observati
     const double length = along.squaredNorm();
     const double fraction = length > 0.0 ? std::clamp(along.dot(observation.q - path[i - 1]) / length, 0.0, 1.0) : 1.0;
     const double away = (between(path[i - 1], path[i], fraction) - observation.q).norm();
-    const bool nearer = observation.contact ? away < nearest - tie : away <= nearest + tie;
+    const bool nearer = first_pass ? away < nearest - tie : away <= nearest + tie;
     if (!nearer || (fraction == 0.0 && away >= nearest - tie)) continue;
     nearest = std::min(nearest, away);
     best = {i, fraction, 0};
   }
   const JointVector on_path =
       best.segment == 0 ? path.front() : between(path[best.segment - 1], path[best.segment], best.fraction);
-  const double off = bound(task, on_path, observation.q), allowed = std::max(0.001, task.options().stop_tolerance);
+  const double off = bound(task, on_path, observation.q);
   if (off > allowed)
     throw Error(Status::stop_off_path, "observation.joints: found a stop up to " + std::to_string(1000.0 * off) +
                                            " mm off the action's path, expected at most " +
@@ -73,6 +76,13 @@ Stop locate(const Task& task, const Action& action, const Observation& observati
   while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < task.options().stop_tolerance)
     --best.last_free;
   return best;
+}
+
+std::uint64_t fingerprint(const std::vector<Trace>& history, std::size_t count) {
+  std::uint64_t print = support::mix(count);
+  for (std::size_t i = 0; i < count; ++i)
+    print = support::mix(print ^ action::path_id(history[i].path) ^ (history[i].contact ? 1 : 0));
+  return print;
 }
 
 Trace trace_of(const Task& task, const Action& action, const Observation& observation, const Stop& stop) {

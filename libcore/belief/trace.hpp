@@ -27,7 +27,8 @@ struct Stop {
                               ///< contact, and where it is without one
 };
 
-/// Finds the stop. A contact is looked for from the path's beginning, a stop without contact from its end. Throws
+/// Finds the stop. A robot without contact at the path's end has gone all the way; any other stop is the path's first
+/// pass there: what comes after it may not have been tested. Throws
 /// `stop_off_path` if the robot stopped farther from the path than any point of it may be off (1 mm or the stop
 /// tolerance), and `invalid_argument` for a NaN or a wrong number of joints.
 Stop locate(const Task& task, const Action& action, const Observation& observation);
@@ -43,6 +44,9 @@ struct Trace {
   JointPath path;
   BodyPath bodies;
 };
+
+/// Of what was done and seen, in order: equal for beliefs of one model that went through the same.
+std::uint64_t fingerprint(const std::vector<Trace>& history, std::size_t count);
 
 Trace trace_of(const Task& task, const Action& action, const Observation& observation, const Stop& stop);
 

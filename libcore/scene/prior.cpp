@@ -6,6 +6,28 @@
 #include <numbers>
 
 namespace tactus::scene {
+namespace {
+
+/// Brings an angle into a cell, by whole turns first.
+double brought_into(double angle, double centre, double half) {
+  return std::clamp(nearest_angle(angle, centre), centre - half, centre + half);
+}
+
+/// Descriptions of the pose's rotation of which one lies in the cell if any does: the usual one, the one turned over,
+/// and where a pitch of a quarter turn shows no more than the difference (or the sum) of roll and yaw, the one nearest
+/// to the cell's centre.
+std::array<PoseVector, 3> descriptions(const Pose& pose, const PoseVector& centre, const PoseVector& half) {
+  constexpr double pi = std::numbers::pi;
+  const PoseVector v = geometry::pose_vector(pose);
+  PoseVector over = v, shared = v;
+  over[3] += pi, over[4] = pi - v[4], over[5] += pi;
+  const double sign = v[4] > 0.0 ? 1.0 : -1.0, shown = v[5] - sign * v[3];
+  shared[5] = brought_into(shown + sign * centre[3], centre[5], half[5]);
+  shared[3] = sign * (shared[5] - shown);
+  return {v, over, shared};
+}
+
+}  // namespace
 
 Pose Prior::sample(support::Rng& rng) const {
   PoseVector v = centre;
@@ -19,6 +41,24 @@ bool Prior::contains(const PoseVector& pose, double tolerance) const {
     if (!(std::abs(value - centre[d]) <= 0.5 * width[d] + tolerance)) return false;
   }
   return true;
+}
+
+bool Prior::contains(const Pose& base_from_target, double tolerance) const {
+  PoseVector half = width;
+  for (double& value : half) value *= 0.5;
+  return box_holds(centre, half, base_from_target, tolerance);
+}
+
+/// The pose's descriptions are brought into the box, and compared as poses.
+bool box_holds(const PoseVector& centre, const PoseVector& half, const Pose& pose, double tolerance) {
+  if (!pose.matrix().allFinite()) return false;
+  for (int d = 0; d < 3; ++d)
+    if (!(std::abs(pose.translation()[d] - centre[d]) <= half[d] + tolerance)) return false;
+  for (PoseVector v : descriptions(pose, centre, half)) {
+    for (int d = 3; d < 6; ++d) v[d] = brought_into(v[d], centre[d], half[d]);
+    if ((geometry::pose_from(v).linear() - pose.linear()).cwiseAbs().maxCoeff() <= tolerance) return true;
+  }
+  return false;
 }
 
 double nearest_angle(double angle, double to) {

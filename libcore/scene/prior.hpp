@@ -20,7 +20,15 @@ struct Prior {
 
   /// Whether `pose` lies in the box, to `tolerance` (m and rad); angles modulo 2 pi.
   bool contains(const PoseVector& pose, double tolerance = 1e-9) const;
+
+  /// Whether some numbers in the box describe the pose (`box_holds`).
+  bool contains(const Pose& base_from_target, double tolerance = 1e-9) const;
 };
+
+/// Whether some x, y, z, roll, pitch, yaw within `half` of `centre` describe the pose, to `tolerance` (m and rad):
+/// angles modulo whole turns, and in every way in which roll, pitch and yaw describe the same rotation. Never for a
+/// pose that is not finite.
+bool box_holds(const PoseVector& centre, const PoseVector& half, const Pose& pose, double tolerance = 1e-9);
 
 /// `angle` moved by multiples of 2 pi to lie nearest to `to`.
 double nearest_angle(double angle, double to);

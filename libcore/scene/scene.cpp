@@ -27,10 +27,11 @@ double reach_of(const Mesh& mesh) {
 
 }  // namespace
 
-bool Scene::is_seated(const Pose& base_from_tool, const Pose& base_from_target) const {
+bool Scene::is_seated(const Pose& base_from_tool, const Pose& base_from_target, const PoseVector& half) const {
   const Pose wanted = seated(base_from_target);
-  return (wanted.translation() - base_from_tool.translation()).norm() <= target.position_tolerance &&
-         geometry::angle_between(wanted, base_from_tool) <= target.angle_tolerance;
+  const double shift = cell_radius(half, target.target_from_seated.translation().norm());
+  return (wanted.translation() - base_from_tool.translation()).norm() + shift <= target.position_tolerance &&
+         geometry::angle_between(wanted, base_from_tool) + half[3] + half[4] + half[5] <= target.angle_tolerance;
 }
 
 Box target_region(const Scene& scene, const Pose& frame_from_base) {

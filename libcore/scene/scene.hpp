@@ -42,8 +42,9 @@ struct Scene {
   /// The tool link's pose, in the base frame, that completes the task for a target at `base_from_target`.
   Pose seated(const Pose& base_from_target) const { return base_from_target * target.target_from_seated; }
 
-  /// Whether a tool at `base_from_tool` is seated, within tolerance, in a target at `base_from_target`.
-  bool is_seated(const Pose& base_from_tool, const Pose& base_from_target) const;
+  /// Whether a tool at `base_from_tool` is seated, within tolerance, in a target at `base_from_target`; with `half`, in
+  /// a target at every pose whose x, y, z, roll, pitch, yaw are each within that of `base_from_target`'s.
+  bool is_seated(const Pose& base_from_tool, const Pose& base_from_target, const PoseVector& half = {}) const;
 };
 
 /// The frame in which motions are laid out: origin at the prior's central target, z along the approach axis there, x

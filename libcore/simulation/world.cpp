@@ -45,7 +45,7 @@ World::World(std::shared_ptr<const belief::Model> model, const Pose& base_from_t
   if (!(options.fineness >= 1.0))
     throw Error(Status::invalid_argument,
                 "world options: fineness: found " + std::to_string(options.fineness) + ", expected at least 1");
-  if (!scene.prior.contains(geometry::pose_vector(base_from_target), 1e-6))
+  if (!scene.prior.contains(base_from_target, 1e-6))
     throw Error(
         Status::invalid_argument,
         "true_pose: found a pose outside the prior, expected one inside it: the target must be where the search looks");

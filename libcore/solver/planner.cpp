@@ -81,7 +81,7 @@ struct Planner::Policy {
   std::size_t choice = 0;
   std::size_t lead = 0;  ///< waypoints of the action before the motion proper
   std::uint64_t action_id = 0;
-  std::size_t history = 0;  ///< observations the belief had
+  std::uint64_t history = 0;  ///< fingerprint of what the belief had been through
 };
 
 Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOptions& options)
@@ -140,8 +140,8 @@ void Planner::note_fruitless(const belief::Belief& belief) {
 /// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed
 /// for it.
 std::optional<int> Planner::followed(const belief::Belief& belief) {
-  if (!policy_ || standing_.stalls >= patience || greedy_of(options_.solver) ||
-      belief.history().size() != policy_->history + 1)
+  if (!policy_ || standing_.stalls >= patience || greedy_of(options_.solver) || belief.history().empty() ||
+      belief::fingerprint(belief.history(), belief.history().size() - 1) != policy_->history)
     return std::nullopt;
   const belief::Trace& last = belief.history().back();
   if (last.action_id != policy_->action_id || last.outcome <= policy_->lead) return std::nullopt;
@@ -202,7 +202,7 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
       policy_->choice = *choice;
       policy_->lead = made->lead;
       policy_->action_id = made->id;
-      policy_->history = belief.history().size();
+      policy_->history = belief::fingerprint(belief.history(), belief.history().size());
       return {Answer::Kind::action, std::make_shared<const action::Action>(std::move(*made))};
     }
     if (deadline.cancelled()) return {Answer::Kind::cancelled, nullptr};

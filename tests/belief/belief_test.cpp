@@ -148,6 +148,41 @@ TEST(Goal, IsReachedSeatedAndNotBefore) {
     }
 }
 
+TEST(Goal, NeedsEveryPoseOfEveryCellSeated) {
+  Belief belief(small_model(task(), Kind::particles, {.most_cells = 0}), task()->scene().start);
+  action::ActionLibrary library(*task());
+  const Pose central = task()->scene().prior.central_pose();
+  const action::Action action = insertion_at(*task(), library, belief.configuration(), central);
+  belief.set_configuration(action.path.back());
+  EXPECT_FALSE(belief.is_goal()) << "the cells' centres are seated, but nothing has been felt yet";
+}
+
+TEST(Goal, ABoxOfPosesIsSeatedOnlyIfEachPoseInItIs) {
+  support::Rng rng(7);
+  const scene::Scene& scene = task()->scene();
+  const Pose base_from_tool = scene.seated(scene.prior.central_pose());
+  int seated = 0;
+  for (int i = 0; i < 400; ++i) {
+    PoseVector centre = scene.prior.centre, half{};
+    for (std::size_t d = 0; d < 6; ++d) {
+      centre[d] += rng.uniform(-1.0, 1.0) * (d < 3 ? 0.002 : 0.05);
+      half[d] = rng.uniform() * (d < 3 ? 0.002 : 0.05);
+    }
+    if (!scene.is_seated(base_from_tool, geometry::pose_from(centre), half)) continue;
+    ++seated;
+    for (std::size_t d = 0; d < 6; ++d) centre[d] += half[d] * rng.uniform(-1.0, 1.0);
+    EXPECT_TRUE(scene.is_seated(base_from_tool, geometry::pose_from(centre)));
+  }
+  EXPECT_GT(seated, 20);
+}
+
+TEST(HandOver, IsDoneAtCreationWhereThePriorIsSmall) {
+  const Belief belief(model(Kind::hierarchical, 100000), task()->scene().start);
+  EXPECT_EQ(belief.phase(), Phase::poses);
+  EXPECT_TRUE(belief.contains(task()->scene().prior.central_pose()));
+  EXPECT_EQ(Belief(model(Kind::hierarchical, 0), task()->scene().start).phase(), Phase::voxels);
+}
+
 TEST(Summary, SaysWhatIsLeft) {
   const belief::Summary voxels = Belief(model(Kind::hierarchical, 0), task()->scene().start).summary();
   EXPECT_EQ(voxels.phase, Phase::voxels);

@@ -68,13 +68,13 @@ TEST(Locate, FindsStopsAtRandomFractions) {
   }
 }
 
-TEST(Locate, TakesAContactAtTheFirstPassAndAStopWithoutOneAtTheLast) {
+TEST(Locate, TakesAStopAtTheFirstPassUnlessItIsTheEndOfAFreePath) {
   const action::Action action = out_and_back(5);
   const JointVector q = between(action.path[2], action.path[3], 0.5);
   EXPECT_EQ(belief::locate(task(), action, {true, q}).segment, 3u);
-  EXPECT_EQ(belief::locate(task(), action, {false, q}).segment, 8u);
+  EXPECT_EQ(belief::locate(task(), action, {false, q}).segment, 3u);
   EXPECT_EQ(belief::locate(task(), action, {true, action.path[2]}).segment, 2u);
-  EXPECT_EQ(belief::locate(task(), action, {false, action.path[2]}).last_free, 8u);
+  EXPECT_EQ(belief::locate(task(), action, {false, action.path[2]}).last_free, 2u);
   EXPECT_EQ(belief::locate(task(), action, {true, action.path.front()}).segment, 0u);
   EXPECT_EQ(belief::locate(task(), action, {false, action.path.front()}).last_free, 10u);
 }
