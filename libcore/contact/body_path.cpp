@@ -8,8 +8,8 @@
 namespace tactus::contact {
 namespace {
 
-constexpr double tool_leaf_radius = 0.003;
-constexpr double link_leaf_radius = 0.01;
+constexpr double tool_piece_radius = 0.003;
+constexpr double link_piece_radius = 0.01;
 
 bool moves(const robot::RobotModel& model, int link) {
   for (; link >= 0; link = model.links[link].parent)
@@ -24,13 +24,13 @@ const geometry::Box RobotBodies::everywhere{Vector3::Constant(-1e300), Vector3::
 RobotBodies::RobotBodies(std::shared_ptr<const robot::RobotModel> model, int tool_link, const Mesh& tool,
                          const geometry::Box& region)
     : model_(std::move(model)), tool_link_(tool_link), region_(region) {
-  bodies_.push_back(std::make_unique<Body>(tool, tool_leaf_radius));
+  bodies_.push_back(std::make_unique<Body>(tool, tool_piece_radius));
   links_.push_back(tool_link);
   for (int link = static_cast<int>(model_->links.size()) - 1; link >= 0; --link) {
     Mesh mesh;
     for (const Mesh& shape : model_->links[link].shapes) geometry::append(mesh, shape);
     if (mesh.triangles.empty() || !moves(*model_, link)) continue;
-    bodies_.push_back(std::make_unique<Body>(mesh, link_leaf_radius));
+    bodies_.push_back(std::make_unique<Body>(mesh, link_piece_radius));
     links_.push_back(link);
   }
 }
@@ -49,6 +49,7 @@ BodyPath::BodyPath(const RobotBodies& bodies, const std::vector<robot::JointVect
   for (std::size_t i = bodies_; i < poses_.size(); ++i)
     travelled_[i] = travelled_[i - bodies_] + geometry::largest_displacement(bodies.body(i % bodies_).tree().box(),
                                                                              poses_[i - bodies_], poses_[i]);
+  fill_blocks();
   const geometry::Box near = bodies.region().inflated(region_margin);
   for (std::size_t body = 0; body < bodies_; ++body) {
     Range range{size(), 0};
@@ -59,6 +60,18 @@ BodyPath::BodyPath(const RobotBodies& bodies, const std::vector<robot::JointVect
     }
     near_region_.push_back(range);
   }
+}
+
+void BodyPath::fill_blocks() {
+  const std::size_t waypoints = size(), lanes = kernel::lanes;
+  blocks_.resize((waypoints + lanes - 1) / lanes * bodies_);
+  for (std::size_t i = 0; i < blocks_.size() / std::max<std::size_t>(1, bodies_) * lanes; ++i)
+    for (std::size_t body = 0; body < bodies_; ++body) {
+      const kernel::Placement pose = placement(base_from_body(std::min(i, waypoints - 1), body));
+      kernel::PoseBlock& block = blocks_[i / lanes * bodies_ + body];
+      for (int k = 0; k < 9; ++k) block.rotation[k][i % lanes] = pose.rotation[k];
+      for (int k = 0; k < 3; ++k) block.translation[k][i % lanes] = pose.translation[k];
+    }
 }
 
 }  // namespace tactus::contact

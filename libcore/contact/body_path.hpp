@@ -46,6 +46,9 @@ class BodyPath {
   /// Metres.
   double travelled(std::size_t waypoint, std::size_t body) const { return travelled_[waypoint * bodies_ + body]; }
 
+  /// The poses of a body at the waypoints [16 k, 16 k + 16), for the kernels; past the end the last is repeated.
+  const kernel::PoseBlock& pose_block(std::size_t k, std::size_t body) const { return blocks_[k * bodies_ + body]; }
+
   /// Outside these waypoints the body is farther than `region_margin` from the bodies' region.
   struct Range {
     std::size_t begin = 0, end = 0;
@@ -54,9 +57,12 @@ class BodyPath {
   static constexpr double region_margin = 0.03;  ///< m
 
  private:
+  void fill_blocks();
+
   std::size_t bodies_ = 0;
   std::vector<Pose> poses_;
   std::vector<double> travelled_;
+  std::vector<kernel::PoseBlock> blocks_;
   std::vector<Range> near_region_;
 };
 

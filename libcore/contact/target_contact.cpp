@@ -2,6 +2,8 @@
 #include "contact/target_contact.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 namespace tactus::contact {
 namespace {
@@ -9,39 +11,60 @@ namespace {
 constexpr double relative_detail = 0.4;  // of the reach or the depth asked for
 constexpr double field_spacing = 0.001;
 constexpr double field_border = 0.01;
-constexpr std::size_t leaf_stride = 31;  // of the first look for the nearest point
 constexpr std::size_t field_samples = 1'000'000;
+constexpr double box_slack = 2e-6;  // m, of boxes compared in single precision
+
+kernel::Extent extent(const geometry::Box& box) {
+  kernel::Extent result;
+  for (int d = 0; d < 3; ++d) {
+    result.centre[d] = static_cast<float>(box.centre()[d]);
+    result.half[d] = static_cast<float>(0.5 * box.size()[d]);
+  }
+  return result;
+}
+
+/// The lanes of sixteen from `first` on that are in [from, to).
+std::uint32_t lanes_within(std::size_t first, std::size_t from, std::size_t to) {
+  std::uint32_t mask = 0xffffu;
+  if (from > first) mask &= 0xffffu << (from - first);
+  if (to < first + kernel::lanes) mask &= 0xffffu >> (first + kernel::lanes - to);
+  return mask;
+}
 
 }  // namespace
 
-TargetContact::TargetContact(std::shared_ptr<const RobotBodies> bodies, const Mesh& target, double margin)
+TargetContact::TargetContact(std::shared_ptr<const RobotBodies> bodies, const Mesh& target, double margin,
+                             const kernel::Kernel& kernel)
     : bodies_(std::move(bodies)),
       target_(target),
       field_(target, field_spacing, field_border, field_samples),
+      image_(field_),
+      kernel_(kernel),
       margin_(margin) {
   for (const Mesh& shell : geometry::shells(geometry::merged_vertices(target)))
     shell_points_.push_back(shell.vertices.front());
 }
 
-/// Where the look-up leaves a leaf undecided. For a depth (threshold < 0) the leaf's centre speaks; for a wide reach
+/// Where the look-up leaves a piece undecided. For a depth (threshold < 0) the piece's middle speaks; for a wide reach
 /// its ball, which errs to a hit; else its triangle against the target's.
-bool TargetContact::leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body,
-                             double threshold) const {
-  const Vector3 centre = target_from_body * leaf.centre;
+bool TargetContact::piece_hit(const Piece& piece, const Pose& target_from_body, double threshold) const {
+  const Vector3 centre = target_from_body * piece.centre;
   if (threshold < 0.0)
     return field_.tree().distance(centre, -threshold) >= -threshold && field_.tree().contains(centre);
-  if (threshold > std::max(margin_, leaf.radius))
-    return field_.tree().distance(centre, threshold + 1.01 * leaf.radius) <= threshold + leaf.radius;
-  return field_.tree().within(geometry::transformed(body.triangle(leaf.triangle), target_from_body), threshold);
+  if (threshold > std::max(margin_, piece.radius))
+    return field_.tree().distance(centre, threshold + 1.01 * piece.radius) <= threshold + piece.radius;
+  return field_.tree().within(geometry::transformed(piece.corners, target_from_body), threshold);
 }
 
-/// Goes through the body's balls, deepest detail only where the target is near: a ball is passed over when its centre
-/// is a little farther from the threshold than its radius; a reach much wider than a ball takes the ball for its part
-/// of the surface, which errs to a hit, and a depth much greater gives it up, which errs to none.
-TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_from_body, double threshold) const {
-  const std::vector<SurfaceBall>& balls = body.balls();
-  const double detail = std::abs(threshold) > margin_ ? relative_detail * std::abs(threshold) : 0.0;
-  double lowest = 1e300;
+/// Goes through the body's balls, deepest detail only where the target is near. A reach much wider than a ball takes
+/// the ball for its part of the surface, which errs to a hit, and a depth much greater gives it up, which errs to none.
+TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_from_body, double threshold,
+                                          double enough) const {
+  const bool wide = std::abs(threshold) > margin_;
+  const kernel::Question question{static_cast<float>(threshold),
+                                  wide ? static_cast<float>(relative_detail * std::abs(threshold)) : 0.0f,
+                                  static_cast<float>(enough), wide && threshold > 0.0};
+  const kernel::Placement at = placement(target_from_body);
   std::uint64_t asked = 0;  // a shell that crosses nothing is inside or outside as a whole: one of its points is asked
   const auto side_unknown = [&asked](int shell) {
     if (shell >= 64) return true;
@@ -49,64 +72,68 @@ TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_f
     asked |= std::uint64_t{1} << shell;
     return first;
   };
-  for (int i = 0; i < static_cast<int>(balls.size());) {
-    const SurfaceBall& ball = balls[i];
-    const geometry::DistanceBounds bounds = field_.bounds(target_from_body * ball.centre);
-    const double lower = bounds.lower - ball.radius;
-    if (lower > threshold && (lower >= lowest || ball.radius <= 0.8 * (bounds.lower - threshold))) {
-      lowest = std::min(lowest, lower);
-      i = ball.next;
-      continue;
+  const auto inside = [&](const Piece& piece) {
+    const Vector3 centre = target_from_body * piece.centre;
+    return field_.bounds(centre).lower < 0.0 && side_unknown(piece.shell) && field_.tree().contains(centre);
+  };
+  kernel::Walk walk;
+  walk.start();
+  do {
+    if (kernel_.walk(body.balls().blocks().data(), image_.view(), at, question, walk) == kernel::Verdict::hit)
+      return {true, 0.0};
+    for (int i = 0; i < walk.piece_count; ++i) {
+      const Piece& piece = body.balls().pieces()[walk.pieces[i]];
+      if (piece_hit(piece, target_from_body, threshold) || (threshold >= 0.0 && inside(piece))) return {true, 0.0};
     }
-    if (ball.radius < detail && ball.triangle < 0) {
-      if (threshold > 0.0) return {true, 0.0};
-      lowest = std::min(lowest, lower);
-      i = ball.next;
-      continue;
-    }
-    if (ball.triangle >= 0) {
-      if (bounds.upper < threshold) return {true, 0.0};
-      if (lower <= threshold && leaf_hit(body, ball, target_from_body, threshold)) return {true, 0.0};
-      if (threshold >= 0.0 && bounds.lower < 0.0 && side_unknown(ball.shell) &&
-          field_.tree().contains(target_from_body * ball.centre))
-        return {true, 0.0};
-      lowest = std::min(lowest, lower);
-    }
-    ++i;
-  }
-  return {false, std::max(0.0, lowest - threshold)};
+  } while (walk.depth > 0);
+  if (threshold >= 0.0 && target_inside(body, target_from_body)) return {true, 0.0};
+  return {false, std::max(0.0, static_cast<double>(walk.clearance))};
 }
 
 bool TargetContact::target_inside(const Body& body, const Pose& target_from_body) const {
   const Pose body_from_target = target_from_body.inverse();
-  return std::any_of(shell_points_.begin(), shell_points_.end(),
-                     [&](const Vector3& p) { return body.tree().contains(body_from_target * p); });
+  return std::any_of(shell_points_.begin(), shell_points_.end(), [&](const Vector3& point) {
+    const Vector3 p = body_from_target * point;
+    return body.tree().box().contains(p) && body.field().bounds(p).lower <= 0.0 && body.tree().contains(p);
+  });
 }
 
-std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, const Pose& base_from_target,
+std::uint32_t TargetContact::near_waypoints(const BodyPath& path, std::size_t body, std::size_t block,
+                                            const kernel::Placement& target_from_base, double reach) const {
+  return kernel_.near(path.pose_block(block, body), extent(bodies_->body(body).tree().box()), target_from_base,
+                      extent(field_.tree().box()), static_cast<float>(std::max(0.0, reach) + box_slack));
+}
+
+std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, const Pose& target_from_base,
                                        double threshold, std::size_t from, std::size_t to) const {
-  if (from >= to) return to;
-  const Pose target_from_base = base_from_target.inverse();
   const std::size_t none = to;
+  if (from >= to) return none;
   if (threshold < BodyPath::region_margin) {
     from = std::max(from, path.near_region(body).begin);
     to = std::min(to, path.near_region(body).end);
   }
-  for (std::size_t i = from; i < to;) {
-    const Pose target_from_body = target_from_base * path.base_from_body(i, body);
-    const Reach at = reach(bodies_->body(body), target_from_body, threshold);
-    if (at.hit || (threshold >= 0.0 && target_inside(bodies_->body(body), target_from_body))) return i;
-    const double free_until = path.travelled(i, body) + at.clearance;
-    for (++i; i < to && path.travelled(i, body) < free_until;) ++i;
+  const kernel::Placement base = placement(target_from_base);
+  double free_until = -1.0;  // of the way travelled
+  for (std::size_t first = from / kernel::lanes * kernel::lanes; first < to; first += kernel::lanes) {
+    std::uint32_t near = near_waypoints(path, body, first / kernel::lanes, base, threshold);
+    for (near &= lanes_within(first, from, to); near != 0; near &= near - 1) {
+      const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(near));
+      if (path.travelled(i, body) < free_until) continue;
+      const double ahead = path.travelled(to - 1, body) - path.travelled(i, body);
+      const Reach at = reach(bodies_->body(body), target_from_base * path.base_from_body(i, body), threshold, ahead);
+      if (at.hit) return i;
+      free_until = path.travelled(i, body) + at.clearance;
+    }
   }
   return none;
 }
 
 std::optional<std::size_t> TargetContact::first_reach(const BodyPath& path, const Pose& base_from_target,
                                                       double threshold, std::size_t from) const {
+  const Pose target_from_base = base_from_target.inverse();
   std::size_t first = path.size();
   for (std::size_t body = 0; body < bodies_->size(); ++body)
-    first = std::min(first, first_reach(path, body, base_from_target, threshold, from, first));
+    first = std::min(first, first_reach(path, body, target_from_base, threshold, from, first));
   return first == path.size() ? std::nullopt : std::optional(first);
 }
 
@@ -125,8 +152,9 @@ bool TargetContact::touches(const BodyPath& path, std::size_t waypoint, const Po
 
 bool TargetContact::within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target,
                            double radius) const {
+  const Pose target_from_base = base_from_target.inverse();
   for (std::size_t body = 0; body < bodies_->size(); ++body)
-    if (first_reach(path, body, base_from_target, radius, waypoint, waypoint + 1) == waypoint) return true;
+    if (first_reach(path, body, target_from_base, radius, waypoint, waypoint + 1) == waypoint) return true;
   return false;
 }
 
@@ -141,35 +169,49 @@ ContactInterval TargetContact::first_contact_interval(const BodyPath& path, cons
           first_certain_contact(path, base_from_target, radius).value_or(path.size())};
 }
 
+/// The point of a piece that is deepest in the target or nearest to it, if it beats what was found before.
+void TargetContact::look_at(const Piece& piece, const Pose& target_from_body, Nearest& best) const {
+  const auto consider = [&](const Vector3& p) {
+    const geometry::DistanceBounds bounds = field_.bounds(p);
+    if (bounds.lower >= best.distance) return;
+    const double estimate = bounds.upper > field_border ? 0.5 * (bounds.lower + bounds.upper) : field_.estimate(p);
+    if (estimate < best.distance) best.distance = estimate, best.point = p;
+  };
+  consider(target_from_body * piece.centre);
+  for (const Vector3& corner : piece.corners) consider(target_from_body * corner);
+}
+
+void TargetContact::nearest(const Body& body, const Pose& target_from_body, Nearest& best) const {
+  const kernel::Placement at = placement(target_from_body);
+  std::array<std::pair<float, std::int32_t>, kernel::Walk::most_blocks> stack;
+  std::size_t depth = 0;
+  stack[depth++] = {-1e30f, 0};
+  while (depth > 0) {
+    const auto [bound, index] = stack[--depth];
+    if (bound >= best.distance) continue;
+    const kernel::Block& block = body.balls().blocks()[index];
+    float lower[kernel::lanes], upper[kernel::lanes];
+    kernel_.measure(block, image_.view(), at, lower, upper);
+    std::array<std::pair<float, std::int32_t>, kernel::lanes> open;
+    std::size_t count = 0;
+    for (int lane = 0; lane < kernel::lanes; ++lane)
+      if (block.radius[lane] > 0.5f * kernel::no_ball && lower[lane] - block.radius[lane] < best.distance)
+        open[count++] = {lower[lane] - block.radius[lane], block.next[lane]};
+    std::sort(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count), std::greater<>());
+    for (std::size_t k = count; k-- > 0;)
+      if (open[k].second < 0) look_at(body.balls().pieces()[~open[k].second], target_from_body, best);
+    for (std::size_t k = 0; k < count; ++k)
+      if (open[k].second >= 0 && open[k].first < best.distance) stack[depth++] = open[k];
+  }
+}
+
 Nearest TargetContact::nearest(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const {
   Nearest result;
   const Pose target_from_base = base_from_target.inverse();
   for (std::size_t body = 0; body < bodies_->size(); ++body) {
     const BodyPath::Range& near = path.near_region(body);
-    if (waypoint < near.begin || waypoint >= near.end) continue;
-    const Pose target_from_body = target_from_base * path.base_from_body(waypoint, body);
-    const std::vector<SurfaceBall>& balls = bodies_->body(body).balls();
-    const std::vector<int>& leaves = bodies_->body(body).leaves();
-    for (std::size_t k = 0; k < leaves.size(); k += leaf_stride) {
-      const Vector3 centre = target_from_body * balls[leaves[k]].centre;
-      const double estimate = field_.bounds(centre).upper;
-      if (estimate < result.distance) result.distance = estimate, result.point = centre;
-    }
-    for (int i = 0; i < static_cast<int>(balls.size());) {
-      const SurfaceBall& ball = balls[i];
-      const Vector3 centre = target_from_body * ball.centre;
-      const geometry::DistanceBounds bounds = field_.bounds(centre);
-      if (bounds.lower - ball.radius >= result.distance || (ball.triangle >= 0 && bounds.lower >= result.distance)) {
-        i = ball.next;
-        continue;
-      }
-      if (ball.triangle >= 0) {
-        const double estimate =
-            bounds.upper > field_border ? 0.5 * (bounds.lower + bounds.upper) : field_.estimate(centre);
-        if (estimate < result.distance) result.distance = estimate, result.point = centre;
-      }
-      ++i;
-    }
+    if (waypoint >= near.begin && waypoint < near.end)
+      nearest(bodies_->body(body), target_from_base * path.base_from_body(waypoint, body), result);
   }
   result.gradient = field_.gradient(result.point);
   return result;

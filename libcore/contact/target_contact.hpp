@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "contact/body_path.hpp"
+#include "contact/target_field.hpp"
 
 namespace tactus::contact {
 
@@ -29,15 +30,16 @@ struct Nearest {
 /// skipped only where a bound on the motion proves them free. Const, shared by any number of threads.
 class TargetContact {
  public:
-  /// `target` in its own frame; `margin` in metres.
-  TargetContact(std::shared_ptr<const RobotBodies> bodies, const Mesh& target, double margin);
+  /// `target` in its own frame; `margin` in metres. All kernels give the same answers.
+  TargetContact(std::shared_ptr<const RobotBodies> bodies, const Mesh& target, double margin,
+                const kernel::Kernel& kernel = kernel::fastest());
 
   /// The first waypoint >= 1 in contact; none if the whole path is free.
   std::optional<std::size_t> first_contact(const BodyPath& path, const Pose& base_from_target) const;
 
   /// The first waypoint >= `from` at which the robot, inflated by `radius` (m, >= 0), touches the target; 0 asks for
   /// crossing or containment, without a margin. Exact up to the margin; wider reaches may err to an earlier waypoint,
-  /// by up to twice the larger of a leaf's radius and 0.4 of the reach.
+  /// by up to twice the larger of a piece's radius and 0.4 of the reach.
   std::optional<std::size_t> first_within(const BodyPath& path, const Pose& base_from_target, double radius,
                                           std::size_t from = 1) const;
 
@@ -56,8 +58,8 @@ class TargetContact {
   /// Whether the robot comes within `radius` (m) of the target at a waypoint; errs as `first_within`.
   bool within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target, double radius) const;
 
-  /// An estimate of the deepest or nearest point at a waypoint, to a leaf's size, among the bodies near the region.
-  /// Nothing sound may rest on it.
+  /// An estimate of the deepest or nearest point at a waypoint, among the corners and middles of the pieces of the
+  /// bodies near the region. Nothing sound may rest on it.
   Nearest nearest(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const;
 
   const Mesh& target() const { return target_; }
@@ -70,10 +72,14 @@ class TargetContact {
     bool hit = false;
     double clearance = 0.0;  ///< of what is not hit, above the threshold: the body may move this far without a hit
   };
-  Reach reach(const Body& body, const Pose& target_from_body, double threshold) const;
-  bool leaf_hit(const Body& body, const SurfaceBall& leaf, const Pose& target_from_body, double threshold) const;
+  Reach reach(const Body& body, const Pose& target_from_body, double threshold, double enough) const;
+  bool piece_hit(const Piece& piece, const Pose& target_from_body, double threshold) const;
+  void look_at(const Piece& piece, const Pose& target_from_body, Nearest& best) const;
+  void nearest(const Body& body, const Pose& target_from_body, Nearest& best) const;
   bool target_inside(const Body& body, const Pose& target_from_body) const;
-  std::size_t first_reach(const BodyPath& path, std::size_t body, const Pose& base_from_target, double threshold,
+  std::uint32_t near_waypoints(const BodyPath& path, std::size_t body, std::size_t block,
+                               const kernel::Placement& target_from_base, double reach) const;
+  std::size_t first_reach(const BodyPath& path, std::size_t body, const Pose& target_from_base, double threshold,
                           std::size_t from, std::size_t to) const;
   std::optional<std::size_t> first_reach(const BodyPath& path, const Pose& base_from_target, double threshold,
                                          std::size_t from) const;
@@ -81,6 +87,8 @@ class TargetContact {
   std::shared_ptr<const RobotBodies> bodies_;
   Mesh target_;
   geometry::DistanceField field_;
+  TargetField image_;
+  const kernel::Kernel& kernel_;
   double margin_;
   std::vector<Vector3> shell_points_;  ///< one vertex of each shell of the target
 };

@@ -37,6 +37,9 @@ class DistanceField {
 
   const TriangleTree& tree() const { return tree_; }
   double spacing() const { return spacing_; }
+  const Vector3& origin() const { return origin_; }           ///< of the first sample
+  const std::array<int, 3>& count() const { return count_; }  ///< of samples along x, y, z
+  const std::vector<float>& samples() const { return samples_; }  ///< x fastest
   std::size_t bytes() const { return samples_.size() * sizeof(float); }
 
  private:

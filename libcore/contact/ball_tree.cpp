@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/ball_tree.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace tactus::contact {
+namespace {
+
+constexpr float rounding = 1e-7f;  // m, of a centre or a radius stored as a float
+
+void cut(const Corners& c, int shell, double piece_radius, std::vector<Piece>& pieces) {
+  const Vector3 centre = (c[0] + c[1] + c[2]) / 3.0;
+  const double radius = std::max({(c[0] - centre).norm(), (c[1] - centre).norm(), (c[2] - centre).norm()});
+  if (radius <= piece_radius) {
+    pieces.push_back({c, centre, radius, shell});
+    return;
+  }
+  int longest = 0;
+  for (int i = 1; i < 3; ++i)
+    if ((c[(i + 1) % 3] - c[i]).norm() > (c[(longest + 1) % 3] - c[longest]).norm()) longest = i;
+  const Vector3 a = c[longest], b = c[(longest + 1) % 3], apex = c[(longest + 2) % 3], middle = 0.5 * (a + b);
+  cut({a, middle, apex}, shell, piece_radius, pieces);
+  cut({middle, b, apex}, shell, piece_radius, pieces);
+}
+
+using Range = std::pair<std::size_t, std::size_t>;
+
+/// Halves the range of most pieces across its longest side until there are sixteen, or none of more than one piece.
+std::vector<Range> sixteenths(std::vector<Piece>& pieces, Range whole) {
+  std::vector<Range> parts{whole};
+  while (parts.size() < kernel::lanes) {
+    const auto largest = std::max_element(parts.begin(), parts.end(), [](const Range& a, const Range& b) {
+      return a.second - a.first < b.second - b.first;
+    });
+    const auto [begin, end] = *largest;
+    if (end - begin < 2) break;
+    geometry::Box centres;
+    for (std::size_t i = begin; i < end; ++i) centres.add(pieces[i].centre);
+    int axis = 0;
+    centres.size().maxCoeff(&axis);
+    const std::size_t middle = (begin + end) / 2;
+    const auto at = [&](std::size_t i) { return pieces.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(begin), at(middle), at(end),
+                     [axis](const Piece& a, const Piece& b) { return a.centre[axis] < b.centre[axis]; });
+    *largest = {begin, middle};
+    parts.emplace_back(middle, end);
+  }
+  return parts;
+}
+
+}  // namespace
+
+BallTree::BallTree(const Mesh& mesh, double piece_radius) {
+  const std::vector<Mesh> shells = geometry::shells(geometry::merged_vertices(mesh));
+  for (std::size_t shell = 0; shell < shells.size(); ++shell)
+    for (const geometry::Triangle& t : shells[shell].triangles)
+      cut(geometry::corners(shells[shell], t), static_cast<int>(shell), piece_radius, pieces_);
+  grow(0, pieces_.size());
+}
+
+/// Makes the block over pieces [begin, end), and those below it; returns its index.
+std::int32_t BallTree::grow(std::size_t begin, std::size_t end) {
+  const auto self = static_cast<std::int32_t>(blocks_.size());
+  kernel::Block block{};
+  std::fill_n(block.radius, kernel::lanes, kernel::no_ball);
+  blocks_.push_back(block);
+  const std::vector<Range> parts = sixteenths(pieces_, {begin, end});
+  for (std::size_t lane = 0; lane < parts.size(); ++lane) {
+    const auto [first, last] = parts[lane];
+    geometry::Box box;
+    for (std::size_t i = first; i < last; ++i) box.add(pieces_[i].centre);
+    block.x[lane] = static_cast<float>(box.centre().x());
+    block.y[lane] = static_cast<float>(box.centre().y());
+    block.z[lane] = static_cast<float>(box.centre().z());
+    const Vector3 centre(block.x[lane], block.y[lane], block.z[lane]);
+    double radius = 0.0;
+    for (std::size_t i = first; i < last; ++i)
+      radius = std::max(radius, (pieces_[i].centre - centre).norm() + pieces_[i].radius);
+    block.radius[lane] = static_cast<float>(radius) * (1.0f + rounding) + rounding;
+    block.next[lane] = last - first == 1 ? ~static_cast<std::int32_t>(first) : grow(first, last);
+  }
+  blocks_[static_cast<std::size_t>(self)] = block;
+  return self;
+}
+
+kernel::Placement placement(const Pose& pose) {
+  kernel::Placement result;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      result.rotation[3 * row + column] = static_cast<float>(pose.linear()(row, column));
+    result.translation[row] = static_cast<float>(pose.translation()[row]);
+  }
+  return result;
+}
+
+}  // namespace tactus::contact

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "contact/kernel/descent.hpp"
+#include "geometry/triangle.hpp"
+
+namespace tactus::contact {
+
+using geometry::Corners;
+using geometry::Mesh;
+using geometry::Pose;
+using geometry::Vector3;
+
+/// A part of one triangle of a surface, in a ball about its middle.
+struct Piece {
+  Corners corners;
+  Vector3 centre = Vector3::Zero();
+  double radius = 0.0;  ///< m
+  int shell = 0;        ///< the connected shell it belongs to
+};
+
+/// A surface cut into pieces, and a tree of balls over them, sixteen to a block. Const.
+class BallTree {
+ public:
+  /// Pieces are halved until a ball of `piece_radius` (m) holds each.
+  BallTree(const Mesh& mesh, double piece_radius);
+
+  const std::vector<kernel::Block>& blocks() const { return blocks_; }  ///< the root first
+  const std::vector<Piece>& pieces() const { return pieces_; }
+
+ private:
+  std::int32_t grow(std::size_t begin, std::size_t end);
+
+  std::vector<Piece> pieces_;
+  std::vector<kernel::Block> blocks_;
+};
+
+/// A pose as the kernels take it.
+kernel::Placement placement(const Pose& pose);
+
+}  // namespace tactus::contact

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// The inner loops of contact prediction at the machine's width. What they read and write is plain data: these files
+/// see no Eigen, FCL or standard container, so that each may be compiled for its own instructions. All kernels do the
+/// same IEEE operations in the same order and give the same bits.
+namespace tactus::contact::kernel {
+
+inline constexpr int lanes = 16;
+
+/// Sixteen balls of a tree, each the bound of a further block or of a piece of a surface. A lane that holds none has a
+/// radius of `no_ball`.
+struct alignas(64) Block {
+  float x[lanes], y[lanes], z[lanes];  ///< m, in the body's frame
+  float radius[lanes];                 ///< m
+  std::int32_t next[lanes];            ///< of a block its index; of a piece its complement
+};
+inline constexpr float no_ball = -1e30f;
+
+/// Samples of a signed distance on a lattice, x fastest, in units of `quantum`.
+struct Field {
+  const std::int16_t* samples;  ///< one more than there are is readable
+  float quantum;                ///< m
+  float origin[3];              ///< m
+  float spacing, inverse_spacing;
+  float last[3];  ///< index of the last sample
+  std::int32_t stride[3];
+  float box_low[3], box_high[3];  ///< m, of the surface
+  float slack;                    ///< m that rounding may be wrong by
+};
+
+/// target_from_body: the rotation row by row, and the translation in metres.
+struct Placement {
+  float rotation[9];
+  float translation[3];
+};
+
+/// What is asked of a tree of balls at a placement: does its surface come closer than `threshold` to the target's, or
+/// does (threshold < 0) a point of it lie deeper than that?
+struct Question {
+  float threshold;  ///< m
+  float detail;     ///< m: balls smaller than this are not gone into; a reach takes them for a hit, a depth for none
+  float enough;     ///< m of clearance that no more is wanted than
+  bool by_balls;    ///< pieces smaller than the threshold are taken for their balls
+};
+
+enum class Verdict : std::int32_t { free, hit, undecided };
+
+/// A walk through a tree that can be resumed: `stack` holds the blocks still to be looked at. While
+/// `Verdict::undecided` comes back, the pieces listed have to be decided by their triangles; if `depth` is not 0 the
+/// walk then goes on when called again.
+struct Walk {
+  static constexpr int most_pieces = 64;
+  static constexpr int most_blocks = 256;  ///< for trees of 17 levels
+
+  std::int32_t stack[most_blocks];
+  std::int32_t depth;
+  std::int32_t pieces[most_pieces];
+  std::int32_t piece_count;
+  float clearance;  ///< m above the threshold of all that has been passed over
+
+  void start() {
+    stack[0] = 0;
+    depth = 1;
+    piece_count = 0;
+    clearance = 1e30f;
+  }
+};
+
+/// The poses of a body at sixteen waypoints, waypoint by lane.
+struct alignas(64) PoseBlock {
+  float rotation[9][lanes];
+  float translation[3][lanes];
+};
+
+/// A box in the frame of what it belongs to.
+struct Extent {
+  float centre[3], half[3];  ///< m
+};
+
+struct Kernel {
+  const char* name;
+
+  /// Whether the machine has the instructions.
+  bool (*supported)();
+
+  /// Goes on with a walk.
+  Verdict (*walk)(const Block* blocks, const Field& field, const Placement& target_from_body, const Question& question,
+                  Walk& walk);
+
+  /// Bounds of the distance at the centres of a block's balls.
+  void (*measure)(const Block& block, const Field& field, const Placement& target_from_body, float lower[lanes],
+                  float upper[lanes]);
+
+  /// By lane whether the body's box is within `reach` m of the target's, or can't be told apart from that by the faces'
+  /// normals.
+  std::uint32_t (*near)(const PoseBlock& base_from_body, const Extent& body, const Placement& target_from_base,
+                        const Extent& target, float reach);
+};
+
+extern const Kernel portable;
+#ifdef TACTUS_X86
+extern const Kernel sse41, avx2, avx512;
+#endif
+
+/// All that were built, the widest first; null at the end.
+const Kernel* const* kernels();
+
+/// The widest that the machine has.
+const Kernel& fastest();
+
+}  // namespace tactus::contact::kernel

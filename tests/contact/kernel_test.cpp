@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "contact/contact_cases.hpp"
+
+/// Every kernel that the machine has gives the bits of the portable one, and bounds that hold.
+namespace tactus::test {
+namespace {
+
+namespace kernel = contact::kernel;
+
+std::vector<const kernel::Kernel*> supported_kernels() {
+  std::vector<const kernel::Kernel*> found;
+  for (const kernel::Kernel* const* k = kernel::kernels(); *k != nullptr; ++k)
+    if ((*k)->supported()) found.push_back(*k);
+  return found;
+}
+
+/// A tree of balls, the field of a target, and placements of the one about the other.
+class KernelLaw : public testing::TestWithParam<const kernel::Kernel*> {
+ protected:
+  const kernel::Kernel& kernel() const { return *GetParam(); }
+  Pose random_placement() {
+    Pose pose = random_pose(rng, 0.12);
+    if (rng.below(10) == 0) pose.translation() += 3.0 * random_direction(rng);
+    return pose;
+  }
+
+  Rng rng{7};
+  geometry::DistanceField distance{pairings()[1].target.mesh(), 0.001, 0.01};
+  contact::TargetField field{distance};
+  contact::BallTree tree{pairings()[2].tool.mesh(), 0.003};
+};
+
+TEST_P(KernelLaw, BoundsHoldAndAreThePortableOnes) {
+  for (int i = 0; i < 300; ++i) {
+    const Pose pose = random_placement();
+    const kernel::Placement placement = contact::placement(pose);
+    const kernel::Block& block = tree.blocks()[rng.below(tree.blocks().size())];
+    float lower[2][kernel::lanes], upper[2][kernel::lanes];
+    kernel().measure(block, field.view(), placement, lower[0], upper[0]);
+    kernel::portable.measure(block, field.view(), placement, lower[1], upper[1]);
+    EXPECT_EQ(std::memcmp(lower[0], lower[1], sizeof lower[0]), 0);
+    EXPECT_EQ(std::memcmp(upper[0], upper[1], sizeof upper[0]), 0);
+    for (int lane = 0; lane < kernel::lanes; ++lane) {
+      const double exact = distance.exact(pose * Vector3(block.x[lane], block.y[lane], block.z[lane]));
+      EXPECT_LE(lower[0][lane], exact);
+      EXPECT_GE(upper[0][lane], exact);
+    }
+  }
+}
+
+TEST_P(KernelLaw, WalksAreThePortableOnes) {
+  int hits = 0, undecided = 0, free = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const kernel::Placement placement = contact::placement(random_placement());
+    const auto threshold = static_cast<float>(rng.below(2) == 0 ? 1e-5 : rng.uniform(-0.01, 0.02));
+    const kernel::Question question{threshold, rng.below(2) == 0 ? 0.0f : 0.4f * std::abs(threshold),
+                                    static_cast<float>(rng.uniform(0.0, 0.05)), rng.below(2) == 0};
+    kernel::Walk ours, theirs;
+    ours.start();
+    theirs.start();
+    do {
+      const auto verdict = kernel().walk(tree.blocks().data(), field.view(), placement, question, ours);
+      ASSERT_EQ(verdict, kernel::portable.walk(tree.blocks().data(), field.view(), placement, question, theirs));
+      ++(verdict == kernel::Verdict::hit ? hits : verdict == kernel::Verdict::free ? free : undecided);
+      if (verdict == kernel::Verdict::hit) break;
+      ASSERT_EQ(ours.depth, theirs.depth);
+      ASSERT_EQ(ours.piece_count, theirs.piece_count);
+      ASSERT_EQ(std::memcmp(ours.pieces, theirs.pieces, sizeof(std::int32_t) * ours.piece_count), 0);
+      ASSERT_EQ(std::memcmp(&ours.clearance, &theirs.clearance, sizeof ours.clearance), 0);
+    } while (ours.depth > 0);
+  }
+  EXPECT_GT(hits, 50);
+  EXPECT_GT(free, 50);
+  EXPECT_GT(undecided, 50);
+}
+
+TEST_P(KernelLaw, WhatIsNotNearIsFartherThanTheReach) {
+  const kernel::Extent body{{0.01f, -0.02f, 0.03f}, {0.05f, 0.02f, 0.03f}},
+      target{{0, 0, 0.01f}, {0.03f, 0.04f, 0.02f}};
+  int far = 0;
+  for (int i = 0; i < 300; ++i) {
+    kernel::PoseBlock poses;
+    std::array<Pose, kernel::lanes> placed;
+    for (int lane = 0; lane < kernel::lanes; ++lane) {
+      placed[lane] = random_pose(rng, 0.2);
+      const kernel::Placement p = contact::placement(placed[lane]);
+      for (int k = 0; k < 9; ++k) poses.rotation[k][lane] = p.rotation[k];
+      for (int k = 0; k < 3; ++k) poses.translation[k][lane] = p.translation[k];
+    }
+    const Pose target_from_base = random_pose(rng, 0.1);
+    const auto reach = static_cast<float>(rng.uniform(0.0, 0.05));
+    const std::uint32_t near = kernel().near(poses, body, contact::placement(target_from_base), target, reach);
+    EXPECT_EQ(near, kernel::portable.near(poses, body, contact::placement(target_from_base), target, reach));
+    for (int lane = 0; lane < kernel::lanes; ++lane) {
+      if ((near >> lane & 1u) != 0) continue;
+      ++far;
+      const geometry::Box box{Vector3(-0.03, -0.04, -0.01), Vector3(0.03, 0.04, 0.03)};
+      for (int k = 0; k < 50; ++k) {
+        const Vector3 p(0.01 + rng.uniform(-0.05, 0.05), -0.02 + rng.uniform(-0.02, 0.02),
+                        0.03 + rng.uniform(-0.03, 0.03));
+        EXPECT_GT(box.distance(target_from_base * (placed[lane] * p)), static_cast<double>(reach) - 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(far, 500);
+}
+
+INSTANTIATE_TEST_SUITE_P(, KernelLaw, testing::ValuesIn(supported_kernels()),
+                         [](const auto& kernel) { return std::string(kernel.param->name); });
+
+TEST(Kernels, TheFastestIsTheFirstThatTheMachineHas) {
+  EXPECT_EQ(&kernel::fastest(), supported_kernels().front());
+  EXPECT_EQ(supported_kernels().back(), &kernel::portable);
+}
+
+}  // namespace
+}  // namespace tactus::test
