@@ -11,7 +11,7 @@ mkdir -p build
 
 packages=(
   g++ cmake ninja-build ccache pkg-config git
-  libeigen3-dev libfcl-dev liburdfdom-dev libassimp-dev libompl-dev libyaml-cpp-dev libgtest-dev
+  libeigen3-dev libfcl-dev liburdfdom-dev libassimp-dev libompl-dev libyaml-cpp-dev libgtest-dev libbenchmark-dev
   python3 python3-numpy python3-matplotlib python3-pytest
 )
 python=/usr/bin/python3   # Debian's own: the packages above belong to it, whatever comes first on the PATH

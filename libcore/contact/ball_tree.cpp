@@ -7,7 +7,9 @@
 namespace tactus::contact {
 namespace {
 
-constexpr float rounding = 1e-7f;  // m, of a centre or a radius stored as a float
+constexpr float rounding = 2e-7f;  // of a length stored as a float: relative, and in metres
+
+float rounded_up(double length) { return static_cast<float>(length) * (1.0f + rounding) + rounding; }
 
 void cut(const Corners& c, int shell, double piece_radius, std::vector<Piece>& pieces) {
   const Vector3 centre = (c[0] + c[1] + c[2]) / 3.0;
@@ -68,20 +70,27 @@ std::int32_t BallTree::grow(std::size_t begin, std::size_t end) {
   const std::vector<Range> parts = sixteenths(pieces_, {begin, end});
   for (std::size_t lane = 0; lane < parts.size(); ++lane) {
     const auto [first, last] = parts[lane];
-    geometry::Box box;
-    for (std::size_t i = first; i < last; ++i) box.add(pieces_[i].centre);
-    block.x[lane] = static_cast<float>(box.centre().x());
-    block.y[lane] = static_cast<float>(box.centre().y());
-    block.z[lane] = static_cast<float>(box.centre().z());
-    const Vector3 centre(block.x[lane], block.y[lane], block.z[lane]);
-    double radius = 0.0;
-    for (std::size_t i = first; i < last; ++i)
-      radius = std::max(radius, (pieces_[i].centre - centre).norm() + pieces_[i].radius);
-    block.radius[lane] = static_cast<float>(radius) * (1.0f + rounding) + rounding;
+    bound(first, last, block, lane);
     block.next[lane] = last - first == 1 ? ~static_cast<std::int32_t>(first) : grow(first, last);
   }
   blocks_[static_cast<std::size_t>(self)] = block;
   return self;
+}
+
+/// A ball and a box about the pieces [first, last).
+void BallTree::bound(std::size_t first, std::size_t last, kernel::Block& block, std::size_t lane) const {
+  geometry::Box box;
+  for (std::size_t i = first; i < last; ++i) box.add(geometry::bounds(pieces_[i].corners));
+  Vector3 centre = last - first == 1 ? pieces_[first].centre : box.centre();
+  for (int d = 0; d < 3; ++d) {
+    block.centre[d][lane] = static_cast<float>(centre[d]);
+    centre[d] = static_cast<double>(block.centre[d][lane]);
+    block.half[d][lane] = rounded_up(std::max(box.high[d] - centre[d], centre[d] - box.low[d]));
+  }
+  double radius = 0.0;
+  for (std::size_t i = first; i < last; ++i)
+    radius = std::max(radius, (pieces_[i].centre - centre).norm() + pieces_[i].radius);
+  block.radius[lane] = rounded_up(radius);
 }
 
 kernel::Placement placement(const Pose& pose) {

@@ -21,7 +21,7 @@ struct Piece {
   int shell = 0;        ///< the connected shell it belongs to
 };
 
-/// A surface cut into pieces, and a tree of balls over them, sixteen to a block. Const.
+/// A surface cut into pieces, and a tree over them, sixteen to a block. Const.
 class BallTree {
  public:
   /// Pieces are halved until a ball of `piece_radius` (m) holds each.
@@ -32,6 +32,7 @@ class BallTree {
 
  private:
   std::int32_t grow(std::size_t begin, std::size_t end);
+  void bound(std::size_t first, std::size_t last, kernel::Block& block, std::size_t lane) const;
 
   std::vector<Piece> pieces_;
   std::vector<kernel::Block> blocks_;

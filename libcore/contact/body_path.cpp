@@ -8,7 +8,7 @@
 namespace tactus::contact {
 namespace {
 
-constexpr double tool_piece_radius = 0.003;
+constexpr double tool_piece_radius = 0.002;
 constexpr double link_piece_radius = 0.01;
 
 bool moves(const robot::RobotModel& model, int link) {

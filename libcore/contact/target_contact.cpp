@@ -58,12 +58,11 @@ bool TargetContact::piece_hit(const Piece& piece, const Pose& target_from_body, 
 
 /// Goes through the body's balls, deepest detail only where the target is near. A reach much wider than a ball takes
 /// the ball for its part of the surface, which errs to a hit, and a depth much greater gives it up, which errs to none.
-TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_from_body, double threshold,
-                                          double enough) const {
+TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_from_body, double threshold) const {
   const bool wide = std::abs(threshold) > margin_;
   const kernel::Question question{static_cast<float>(threshold),
                                   wide ? static_cast<float>(relative_detail * std::abs(threshold)) : 0.0f,
-                                  static_cast<float>(enough), wide && threshold > 0.0};
+                                  wide && threshold > 0.0};
   const kernel::Placement at = placement(target_from_body);
   std::uint64_t asked = 0;  // a shell that crosses nothing is inside or outside as a whole: one of its points is asked
   const auto side_unknown = [&asked](int shell) {
@@ -119,8 +118,7 @@ std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, c
     for (near &= lanes_within(first, from, to); near != 0; near &= near - 1) {
       const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(near));
       if (path.travelled(i, body) < free_until) continue;
-      const double ahead = path.travelled(to - 1, body) - path.travelled(i, body);
-      const Reach at = reach(bodies_->body(body), target_from_base * path.base_from_body(i, body), threshold, ahead);
+      const Reach at = reach(bodies_->body(body), target_from_base * path.base_from_body(i, body), threshold);
       if (at.hit) return i;
       free_until = path.travelled(i, body) + at.clearance;
     }

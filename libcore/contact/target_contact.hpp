@@ -72,7 +72,7 @@ class TargetContact {
     bool hit = false;
     double clearance = 0.0;  ///< of what is not hit, above the threshold: the body may move this far without a hit
   };
-  Reach reach(const Body& body, const Pose& target_from_body, double threshold, double enough) const;
+  Reach reach(const Body& body, const Pose& target_from_body, double threshold) const;
   bool piece_hit(const Piece& piece, const Pose& target_from_body, double threshold) const;
   void look_at(const Piece& piece, const Pose& target_from_body, Nearest& best) const;
   void nearest(const Body& body, const Pose& target_from_body, Nearest& best) const;

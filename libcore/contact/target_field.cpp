@@ -30,8 +30,8 @@ TargetField::TargetField(const geometry::DistanceField& field) {
     view_.last[d] = static_cast<float>(field.count()[d] - 1);
     view_.stride[d] = stride;
     stride *= field.count()[d];
-    view_.box_low[d] = static_cast<float>(field.tree().box().low[d]);
-    view_.box_high[d] = static_cast<float>(field.tree().box().high[d]);
+    view_.box_centre[d] = static_cast<float>(field.tree().box().centre()[d]);
+    view_.box_half[d] = static_cast<float>(0.5 * field.tree().box().size()[d]);
   }
 }
 

@@ -17,6 +17,19 @@ bool meets(const Box& box, const Vector3& origin, const Vector3& inverse_directi
   return std::max(0.0, a.cwiseMin(b).maxCoeff()) <= a.cwiseMax(b).minCoeff();
 }
 
+/// Whether all of `b` is farther than `reach` from the plane of `a`, on one side of it.
+bool a_plane_parts(const Corners& a, const Corners& b, double reach) {
+  const Vector3 normal = (a[1] - a[0]).cross(a[2] - a[0]);
+  const double least = 1.0000001 * reach * normal.norm();
+  double low = 1e300, high = -1e300;
+  for (const Vector3& corner : b) {
+    const double side = normal.dot(corner - a[0]);
+    low = std::min(low, side);
+    high = std::max(high, side);
+  }
+  return low > least || high < -least;
+}
+
 }  // namespace
 
 TriangleTree::TriangleTree(const Mesh& mesh) {
@@ -94,7 +107,9 @@ bool TriangleTree::within(const Corners& triangle, double reach) const {
       continue;
     }
     for (int i = node.first; i < node.first + node.count; ++i)
-      if (bounds(faces_[i].corners).overlaps(near) && geometry::distance(faces_[i].corners, triangle) <= reach)
+      if (bounds(faces_[i].corners).overlaps(near) && !a_plane_parts(faces_[i].corners, triangle, reach) &&
+          !a_plane_parts(triangle, faces_[i].corners, reach) &&
+          geometry::distance(faces_[i].corners, triangle) <= reach)
         return true;
   }
   return false;

@@ -45,7 +45,8 @@ TEST_P(KernelLaw, BoundsHoldAndAreThePortableOnes) {
     EXPECT_EQ(std::memcmp(lower[0], lower[1], sizeof lower[0]), 0);
     EXPECT_EQ(std::memcmp(upper[0], upper[1], sizeof upper[0]), 0);
     for (int lane = 0; lane < kernel::lanes; ++lane) {
-      const double exact = distance.exact(pose * Vector3(block.x[lane], block.y[lane], block.z[lane]));
+      const double exact =
+          distance.exact(pose * Vector3(block.centre[0][lane], block.centre[1][lane], block.centre[2][lane]));
       EXPECT_LE(lower[0][lane], exact);
       EXPECT_GE(upper[0][lane], exact);
     }
@@ -58,7 +59,7 @@ TEST_P(KernelLaw, WalksAreThePortableOnes) {
     const kernel::Placement placement = contact::placement(random_placement());
     const auto threshold = static_cast<float>(rng.below(2) == 0 ? 1e-5 : rng.uniform(-0.01, 0.02));
     const kernel::Question question{threshold, rng.below(2) == 0 ? 0.0f : 0.4f * std::abs(threshold),
-                                    static_cast<float>(rng.uniform(0.0, 0.05)), rng.below(2) == 0};
+                                    rng.below(2) == 0};
     kernel::Walk ours, theirs;
     ours.start();
     theirs.start();

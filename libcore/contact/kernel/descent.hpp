@@ -11,12 +11,13 @@ namespace tactus::contact::kernel {
 
 inline constexpr int lanes = 16;
 
-/// Sixteen balls of a tree, each the bound of a further block or of a piece of a surface. A lane that holds none has a
-/// radius of `no_ball`.
+/// Sixteen parts of a surface, each in a ball and in a box about the same centre, and each made of the parts of a
+/// further block or a single piece. A lane that holds none has a radius of `no_ball`.
 struct alignas(64) Block {
-  float x[lanes], y[lanes], z[lanes];  ///< m, in the body's frame
-  float radius[lanes];                 ///< m
-  std::int32_t next[lanes];            ///< of a block its index; of a piece its complement
+  float centre[3][lanes];    ///< m, in the body's frame
+  float radius[lanes];       ///< m
+  float half[3][lanes];      ///< m: half the sides of the box, along the body's axes
+  std::int32_t next[lanes];  ///< of a block its index; of a piece its complement
 };
 inline constexpr float no_ball = -1e30f;
 
@@ -28,8 +29,8 @@ struct Field {
   float spacing, inverse_spacing;
   float last[3];  ///< index of the last sample
   std::int32_t stride[3];
-  float box_low[3], box_high[3];  ///< m, of the surface
-  float slack;                    ///< m that rounding may be wrong by
+  float box_centre[3], box_half[3];  ///< m, of the surface
+  float slack;                       ///< m that rounding may be wrong by
 };
 
 /// target_from_body: the rotation row by row, and the translation in metres.
@@ -43,7 +44,6 @@ struct Placement {
 struct Question {
   float threshold;  ///< m
   float detail;     ///< m: balls smaller than this are not gone into; a reach takes them for a hit, a depth for none
-  float enough;     ///< m of clearance that no more is wanted than
   bool by_balls;    ///< pieces smaller than the threshold are taken for their balls
 };
 

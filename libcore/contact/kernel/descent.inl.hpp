@@ -15,23 +15,37 @@ struct Over {
     F lower, upper;
   };
 
-  static F turned(const Placement& p, int row, F x, F y, F z) {
-    const float* r = p.rotation + 3 * row;
-    return V::add(V::add(V::mul(V::set(r[0]), x), V::mul(V::set(r[1]), y)),
-                  V::add(V::mul(V::set(r[2]), z), V::set(p.translation[row])));
+  struct Points {
+    F v[3];
+  };
+
+  static F magnitude(F a) { return V::max(a, V::sub(V::set(0.0f), a)); }
+  static float magnitude(float a) { return a < 0.0f ? -a : a; }
+
+  static Points centres(const Block& block) {
+    return {{V::load(block.centre[0]), V::load(block.centre[1]), V::load(block.centre[2])}};
+  }
+
+  static Points placed(const Placement& p, const Points& points) {
+    Points result;
+    for (int row = 0; row < 3; ++row) {
+      const float* r = p.rotation + 3 * row;
+      result.v[row] = V::add(V::add(V::mul(V::set(r[0]), points.v[0]), V::mul(V::set(r[1]), points.v[1])),
+                             V::add(V::mul(V::set(r[2]), points.v[2]), V::set(p.translation[row])));
+    }
+    return result;
   }
 
   /// Sixteen points against the samples nearest to them: the distance is 1-Lipschitz.
-  static Bounds bounds(const Field& field, F x, F y, F z) {
-    const F p[3] = {x, y, z};
+  static Bounds bounds(const Field& field, const Points& p) {
     F squared = V::set(0.0f), off_lattice = V::set(0.0f);
     I index = V::set_int(0);
     for (int d = 0; d < 3; ++d) {
-      const F scaled = V::mul(V::sub(p[d], V::set(field.origin[d])), V::set(field.inverse_spacing));
+      const F scaled = V::mul(V::sub(p.v[d], V::set(field.origin[d])), V::set(field.inverse_spacing));
       const F nearest = V::min(V::max(V::floor(V::add(scaled, V::set(0.5f))), V::set(0.0f)), V::set(field.last[d]));
       const F offset = V::sub(scaled, nearest);
       squared = V::add(squared, V::mul(offset, offset));
-      off_lattice = V::max(off_lattice, V::max(offset, V::sub(V::set(0.0f), offset)));
+      off_lattice = V::max(off_lattice, magnitude(offset));
       index = V::add_int(index, V::mul_int(V::to_int(nearest), V::set_int(field.stride[d])));
     }
     const F sample = V::mul(V::gather(field.samples, index), V::set(field.quantum));
@@ -42,80 +56,123 @@ struct Over {
   }
 
   /// The distance to the box of the surface, for the points outside it; very negative for the others.
-  static F outside(const Field& field, const F (&p)[3]) {
+  static F outside(const Field& field, const Points& p) {
     F squared = V::set(0.0f);
     for (int d = 0; d < 3; ++d) {
-      const F below = V::sub(V::set(field.box_low[d]), p[d]), above = V::sub(p[d], V::set(field.box_high[d]));
-      const F away = V::max(V::max(below, above), V::set(0.0f));
-      squared = V::add(squared, V::mul(away, away));
+      const F away = V::sub(magnitude(V::sub(p.v[d], V::set(field.box_centre[d]))), V::set(field.box_half[d]));
+      const F beyond = V::max(away, V::set(0.0f));
+      squared = V::add(squared, V::mul(beyond, beyond));
     }
     const F distance = V::sub(V::sqrt(squared), V::set(field.slack));
     return V::select(V::less(V::set(0.0f), distance), distance, V::set(-1e30f));
   }
 
-  static Bounds bounds(const Block& block, const Field& field, const Placement& placement) {
-    const F x = V::load(block.x), y = V::load(block.y), z = V::load(block.z);
-    return bounds(field, turned(placement, 0, x, y, z), turned(placement, 1, x, y, z), turned(placement, 2, x, y, z));
+  /// The target's box as seen along the axes of a placed body.
+  struct Surroundings {
+    float centre[3], half[3];  ///< m
+    float turned[9];           ///< magnitudes of target_from_body's rotation
+
+    Surroundings(const Field& field, const Placement& p) {
+      for (int column = 0; column < 3; ++column) {
+        centre[column] = 0.0f;
+        half[column] = field.slack;
+        for (int row = 0; row < 3; ++row) {
+          const float entry = p.rotation[3 * row + column];
+          turned[3 * row + column] = magnitude(entry);
+          centre[column] += entry * (field.box_centre[row] - p.translation[row]);
+          half[column] += magnitude(entry) * field.box_half[row];
+        }
+      }
+    }
+  };
+
+  /// How far the boxes of a block are from the target's, along the normals of either's faces.
+  static F box_gap(const Block& block, const Field& field, const Surroundings& around, const Points& in_body,
+                   const Points& in_target) {
+    const F half[3] = {V::load(block.half[0]), V::load(block.half[1]), V::load(block.half[2])};
+    F gap = V::set(-1e30f);
+    for (int d = 0; d < 3; ++d) {
+      const F away = magnitude(V::sub(in_body.v[d], V::set(around.centre[d])));
+      gap = V::max(gap, V::sub(V::sub(away, V::set(around.half[d])), half[d]));
+    }
+    for (int row = 0; row < 3; ++row) {
+      const float* turned = around.turned + 3 * row;
+      const F away = magnitude(V::sub(in_target.v[row], V::set(field.box_centre[row])));
+      const F wide = V::add(V::add(V::mul(V::set(turned[0]), half[0]), V::mul(V::set(turned[1]), half[1])),
+                            V::add(V::mul(V::set(turned[2]), half[2]), V::set(field.box_half[row] + field.slack)));
+      gap = V::max(gap, V::sub(away, wide));
+    }
+    return gap;
   }
 
   static void measure(const Block& block, const Field& field, const Placement& placement, float* lower, float* upper) {
-    const Bounds at = bounds(block, field, placement);
+    const Bounds at = bounds(field, placed(placement, centres(block)));
     V::store(lower, at.lower);
     V::store(upper, at.upper);
   }
 
+  static void lower_clearance(Walk& walk, std::uint32_t lanes_passed, F gap) {
+    const float lowest = V::least(V::select(lanes_passed, gap, V::set(1e30f)));
+    if (lowest < walk.clearance) walk.clearance = lowest;
+  }
+
+  /// Puts blocks on the stack, the nearest last.
+  static void push(const Block& block, std::uint32_t which, const float (&gaps)[lanes], Walk& walk) {
+    int nearest = __builtin_ctz(which);
+    for (std::uint32_t left = which & (which - 1); left != 0; left &= left - 1) {
+      int lane = __builtin_ctz(left);
+      if (gaps[lane] < gaps[nearest]) {
+        const int farther = nearest;
+        nearest = lane;
+        lane = farther;
+      }
+      walk.stack[walk.depth++] = block.next[lane];
+    }
+    walk.stack[walk.depth++] = block.next[nearest];
+  }
+
   static Verdict walk(const Block* blocks, const Field& field, const Placement& placement, const Question& question,
                       Walk& walk) {
-    alignas(64) float gaps[lanes];
     const F threshold = V::set(question.threshold);
+    const Surroundings around(field, placement);
     walk.piece_count = 0;
     while (walk.depth > 0) {
       if (walk.piece_count > Walk::most_pieces - lanes) return Verdict::undecided;
       const Block& block = blocks[walk.stack[--walk.depth]];
-      const Bounds at = bounds(block, field, placement);
-      const std::uint32_t is_piece = V::negative(V::load_int(block.next));
       F radius = V::load(block.radius);
-      const std::uint32_t is_ball = V::less(V::set(0.5f * no_ball), radius);
+      const std::uint32_t is_part = V::less(V::set(0.5f * no_ball), radius);
+      const Points in_body = centres(block), in_target = placed(placement, in_body);
+      F gap = V::sub(box_gap(block, field, around, in_body, in_target), threshold);
+      if ((is_part & V::less_equal(gap, V::set(0.0f))) == 0) {
+        lower_clearance(walk, is_part, gap);
+        continue;
+      }
+
+      const Bounds at = bounds(field, in_target);
+      const std::uint32_t is_piece = is_part & V::negative(V::load_int(block.next));
       F certain = threshold;
       if (question.threshold < 0.0f)
-        radius = V::select(is_piece & is_ball, V::set(0.0f), radius);
+        radius = V::select(is_piece, V::set(0.0f), radius);
       else if (question.by_balls)
         certain = V::select(V::less(radius, threshold), V::add(threshold, radius), threshold);
-      if ((is_piece & is_ball & V::less(at.upper, certain)) != 0) return Verdict::hit;
+      if ((is_piece & V::less(at.upper, certain)) != 0) return Verdict::hit;
 
-      const F above = V::sub(at.lower, threshold), gap = V::sub(above, radius);
-      const std::uint32_t clear = V::less(V::set(0.0f), gap);
-      const F wanted = V::min(V::set(walk.clearance), V::set(question.enough));
-      const std::uint32_t settled =
-          clear & (is_piece | V::less_equal(wanted, gap) | V::less_equal(V::mul(radius, V::set(1.25f)), above));
-      const std::uint32_t open = is_ball & ~settled;
+      gap = V::max(gap, V::sub(V::sub(at.lower, threshold), radius));
+      const std::uint32_t open = is_part & V::less_equal(gap, V::set(0.0f));
       std::uint32_t inner = open & ~is_piece;
       const std::uint32_t fine = inner & V::less(radius, V::set(question.detail));
       if (fine != 0 && question.threshold > 0.0f) return Verdict::hit;
       inner &= ~fine;
-      const float lowest = V::least(V::select(is_ball & ~inner, gap, V::set(1e30f)));
-      if (lowest < walk.clearance) walk.clearance = lowest;
-
+      lower_clearance(walk, is_part & ~inner, gap);
       for (std::uint32_t left = open & is_piece; left != 0; left &= left - 1)
         walk.pieces[walk.piece_count++] = ~block.next[__builtin_ctz(left)];
       if (inner == 0) continue;
+      alignas(64) float gaps[lanes];
       V::store(gaps, gap);
-      int nearest = __builtin_ctz(inner);
-      for (std::uint32_t left = inner & (inner - 1); left != 0; left &= left - 1) {
-        int lane = __builtin_ctz(left);
-        if (gaps[lane] < gaps[nearest]) {
-          const int swapped = nearest;
-          nearest = lane;
-          lane = swapped;
-        }
-        walk.stack[walk.depth++] = block.next[lane];
-      }
-      walk.stack[walk.depth++] = block.next[nearest];
+      push(block, inner, gaps, walk);
     }
     return walk.piece_count > 0 ? Verdict::undecided : Verdict::free;
   }
-
-  static F magnitude(F a) { return V::max(a, V::sub(V::set(0.0f), a)); }
 
   /// Separating axes along the normals of both boxes' faces, in the target's frame.
   static std::uint32_t near(const PoseBlock& body_pose, const Extent& body, const Placement& target_from_base,

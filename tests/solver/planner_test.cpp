@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <thread>
+
+#include "belief/plain_world.hpp"
+#include "support/error.hpp"
+
+/// A planner as its callers see it: options, budgets, answers, and the policy it follows.
+namespace tactus::test {
+namespace {
+
+using belief::Belief;
+using belief::Kind;
+using solver::Answer;
+using solver::Planner;
+using solver::PlannerOptions;
+using solver::Solver;
+using support::Rng;
+using Model = std::shared_ptr<const belief::Model>;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::array solvers{Solver::rtdp_bel, Solver::rtdp_inad, Solver::rtdp_ad,
+                             Solver::tbl,      Solver::frontier,  Solver::rate};
+
+const std::shared_ptr<const action::Task>& task() {
+  static const auto made = small_task({.roll_width = 0.2, .position_width = 0.04});
+  return made;
+}
+
+Model made_model(Kind kind) {
+  belief::Options options;
+  options.kind = kind;
+  options.voxel_size = 0.005;
+  options.delta = 0;
+  options.cells.most = 300;
+  options.particles = 40;
+  return std::make_shared<const belief::Model>(task(), options);
+}
+
+const Model& model(Kind kind) {
+  static const Model voxels_first = made_model(Kind::hierarchical), poses = made_model(Kind::particles);
+  return kind == Kind::hierarchical ? voxels_first : poses;
+}
+
+PlannerOptions within(std::uint64_t expansions, Solver solver = Solver::rtdp_bel) {
+  return {.solver = solver, .budget_seconds = infinity, .budget_expansions = expansions};
+}
+
+std::string refusal(const PlannerOptions& options) {
+  try {
+    Planner planner(model(Kind::particles), options);
+  } catch (const support::Error& error) {
+    EXPECT_EQ(error.status(), support::Status::invalid_argument);
+    return error.what();
+  }
+  return "";
+}
+
+/// A free motion to and fro: the belief is as before but for what it has been through.
+void detour(Belief& belief) {
+  const JointVector q = belief.configuration(), back = q - joints({0.002, 0, 0, 0, 0, 0});
+  belief.step(action_along(*task(), {q, back, q}), {false, q});
+}
+
+TEST(PlannerOptions, OutOfRangeAreRefusedByName) {
+  EXPECT_EQ(refusal(within(1)), "");
+  for (const double bad : {0.0, -1.0, nan})
+    EXPECT_NE(refusal({.budget_seconds = bad}).find("budget_seconds"), std::string::npos);
+  for (const double bad : {-0.1, 1.1, nan}) EXPECT_NE(refusal({.epsilon = bad}).find("epsilon"), std::string::npos);
+  for (const int bad : {0, -2}) EXPECT_NE(refusal({.horizon = bad}).find("horizon"), std::string::npos);
+  EXPECT_NE(refusal(within(0)).find("no budget"), std::string::npos);
+  EXPECT_NE(refusal({.solver = Solver::brtdp_bel}).find("brtdp-bel"), std::string::npos);
+}
+
+TEST(SolverNames, LeadBackToTheirSolvers) {
+  for (const Solver solver : solvers) EXPECT_EQ(solver::solver_from(solver::name_of(solver)), solver);
+  EXPECT_EQ(solver::solver_from("rtdp"), std::nullopt);
+}
+
+TEST(Query, HandsOutAFreeActionFromWhereTheRobotIsWithinItsExpansions) {
+  for (const Kind kind : {Kind::hierarchical, Kind::particles})
+    for (const Solver solver : solvers)
+      for (const std::uint64_t budget : {1, 6}) {
+        const Belief belief(model(kind), task()->scene().start);
+        Planner planner(model(kind), within(budget, solver));
+        const Answer answer = planner.query(belief);
+        ASSERT_EQ(answer.kind, Answer::Kind::action) << solver::name_of(solver);
+        EXPECT_EQ(answer.action->path.front(), belief.configuration());
+        for (const JointVector& q : answer.action->path) EXPECT_TRUE(task()->known_world().is_free(q));
+        EXPECT_GT(answer.action->expected_cost, 0.0);
+        EXPECT_GE(answer.action->contact_probability, 0.0);
+        EXPECT_LE(answer.action->contact_probability, 1.0);
+        const solver::PlannerStatistics& took = planner.statistics();
+        EXPECT_GE(took.expansions, 1u);
+        EXPECT_LE(took.expansions, budget);
+        EXPECT_EQ(took.total_calls, 1u);
+        EXPECT_EQ(took.total_expansions, took.expansions);
+        EXPECT_LE(took.lower_bound, took.value + 1e-9);
+        EXPECT_FALSE(took.from_policy);
+      }
+}
+
+TEST(Query, GivesTheSameActionsForTheSameSeedAndExpansions) {
+  Rng rng(1);
+  const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+  Belief belief(model(Kind::particles), task()->scene().start);
+  Planner first(model(Kind::particles), within(10)), second(model(Kind::particles), within(10));
+  for (int i = 0; i < 6; ++i) {
+    const Answer one = first.query(belief), other = second.query(belief);
+    ASSERT_EQ(one.kind, other.kind);
+    if (one.kind != Answer::Kind::action) break;
+    EXPECT_EQ(one.action->id, other.action->id);
+    EXPECT_EQ(first.statistics().from_policy, second.statistics().from_policy);
+    belief.step(*one.action, world.execute(*one.action));
+  }
+}
+
+TEST(Query, SaysSoAtTheGoal) {
+  const Pose truth = task()->scene().prior.central_pose();
+  const PlainWorld world(*task(), truth);
+  action::ActionLibrary library(*task());
+  Belief belief(model(Kind::particles), task()->scene().start);
+  const action::Action in = insertion_at(*task(), library, belief.configuration(), truth);
+  belief.step(in, world.execute(in));
+  ASSERT_TRUE(belief.is_goal());
+  Planner planner(model(Kind::particles), within(10));
+  const Answer answer = planner.query(belief);
+  EXPECT_EQ(answer.kind, Answer::Kind::goal_reached);
+  EXPECT_EQ(answer.action, nullptr);
+  EXPECT_EQ(planner.statistics().total_calls, 0u);
+}
+
+/// Runs episodes in which two planners are asked alike, and calls `visit(first, second, earlier, action, seen, belief)`
+/// wherever the first goes on with its policy.
+template <typename Visit>
+int for_followed(Visit&& visit) {
+  int times = 0;
+  Rng rng(3);
+  for (int episode = 0; episode < 4; ++episode) {
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner first(model(Kind::particles), within(12)), second(model(Kind::particles), within(12));
+    Answer answer = first.query(belief);
+    second.query(belief);
+    for (int i = 0; i < 6 && answer.kind == Answer::Kind::action; ++i) {
+      const Belief earlier = belief;
+      const belief::Observation seen = world.execute(*answer.action);
+      belief.step(*answer.action, seen);
+      const action::ActionPtr taken = answer.action;
+      const std::uint64_t calls = first.statistics().total_calls;
+      answer = first.query(belief);
+      EXPECT_EQ(first.statistics().total_calls, calls + (first.statistics().from_policy ? 0 : 1));
+      if (first.statistics().from_policy) {
+        ++times;
+        EXPECT_EQ(answer.action->path.front(), belief.configuration());
+        EXPECT_EQ(first.statistics().expansions, 0u);
+        visit(second, earlier, *taken, seen);
+        break;
+      }
+      second.query(belief);
+    }
+  }
+  return times;
+}
+
+TEST(Policy, IsFollowedByNoBeliefThatHasBeenThroughSomethingElse) {
+  const int followed =
+      for_followed([](Planner& planner, Belief other, const action::Action& taken, const belief::Observation& seen) {
+        detour(other);
+        other.step(taken, seen);
+        ASSERT_EQ(planner.query(other).kind, Answer::Kind::action);
+        EXPECT_FALSE(planner.statistics().from_policy);
+      });
+  EXPECT_GT(followed, 1);
+}
+
+TEST(Policy, IsNotFollowedByAnotherOutcome) {
+  for_followed([](Planner& planner, Belief other, const action::Action& taken, const belief::Observation&) {
+    other.step(taken, {false, taken.path.front()});  // halted at once
+    planner.query(other);
+    EXPECT_FALSE(planner.statistics().from_policy);
+  });
+}
+
+TEST(Policy, IsNotMixedUpBetweenTwoBeliefs) {
+  Rng rng(4);
+  const PlainWorld one(*task(), task()->scene().prior.sample(rng)), other(*task(), task()->scene().prior.sample(rng));
+  std::array<Belief, 2> beliefs{Belief(model(Kind::particles), task()->scene().start),
+                                Belief(model(Kind::particles), task()->scene().start)};
+  detour(beliefs[1]);
+  Planner planner(model(Kind::particles), within(12));
+  for (int i = 0; i < 10; ++i) {
+    Belief& belief = beliefs[i % 2];
+    const Answer answer = planner.query(belief);
+    EXPECT_FALSE(planner.statistics().from_policy);
+    if (answer.kind != Answer::Kind::action) break;
+    ASSERT_EQ(answer.action->path.front(), belief.configuration());
+    belief.step(*answer.action, (i % 2 == 0 ? one : other).execute(*answer.action));
+  }
+}
+
+TEST(Cancel, EndsAQueryThatHasNoBudgetToSpend) {
+  const Belief belief(model(Kind::hierarchical), task()->scene().start);
+  Planner planner(model(Kind::hierarchical), within(UINT64_MAX));
+  std::atomic<bool> done{false};
+  Answer answer;
+  std::thread running([&] {
+    answer = planner.query(belief);
+    done = true;
+  });
+  while (!done) {
+    planner.cancel();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  running.join();
+  EXPECT_TRUE(answer.kind == Answer::Kind::action || answer.kind == Answer::Kind::cancelled);
+  EXPECT_EQ(answer.action != nullptr, answer.kind == Answer::Kind::action);
+}
+
+TEST(Cancel, WithoutAQueryChangesNothing) {
+  const Belief belief(model(Kind::particles), task()->scene().start);
+  Planner calm(model(Kind::particles), within(10)), cancelled(model(Kind::particles), within(10));
+  cancelled.cancel();
+  EXPECT_EQ(calm.query(belief).action->id, cancelled.query(belief).action->id);
+  EXPECT_EQ(calm.statistics().expansions, cancelled.statistics().expansions);
+}
+
+}  // namespace
+}  // namespace tactus::test
