@@ -70,17 +70,17 @@ void VoxelBelief::remove_free(const std::vector<std::uint32_t>& swept, std::size
 
 void VoxelBelief::add_contact(const Bitset& candidates) {
   contacts_.push_back({candidates, {}});
+  std::vector<float> to_possible = contact::distance_to(possibly_occupied_, model_->grid);
   for (bool changed = true; changed;) {
     changed = false;
-    for (ContactRecord& record : contacts_) changed = shrink(record) || changed;
+    for (ContactRecord& record : contacts_) changed = shrink(record, to_possible) || changed;
   }
 }
 
 /// Drops candidates with no part of the target near enough, then applies U: drops voxels too far from every candidate.
-/// Says whether anything changed.
-bool VoxelBelief::shrink(ContactRecord& record) {
+/// `to_possible`: the distance from each voxel to PO, kept up to date. Says whether anything changed.
+bool VoxelBelief::shrink(ContactRecord& record, std::vector<float>& to_possible) {
   const double half_diagonal = model_->grid.half_diagonal();
-  const std::vector<float> to_possible = contact::distance_to(possibly_occupied_, model_->grid);
   Bitset kept(model_->grid.size());
   record.candidates.for_each([&](std::size_t v) {
     if (to_possible[v] <= model_->cover + half_diagonal + 1e-6) kept.set(v);
@@ -89,14 +89,15 @@ bool VoxelBelief::shrink(ContactRecord& record) {
   if (!first && kept == record.candidates) return false;
   record.candidates = std::move(kept);
   record.distance = contact::distance_to(record.candidates, model_->grid);
-  const std::size_t before = possibly_occupied_.count();
   const double farthest = model_->diameter + half_diagonal + 1e-6;
   Bitset unoccupied(model_->grid.size());
   possibly_occupied_.for_each([&](std::size_t v) {
     if (record.distance[v] > farthest) unoccupied.set(v);
   });
+  if (unoccupied.none()) return first;
   possibly_occupied_.and_not(unoccupied);
-  return first || possibly_occupied_.count() != before;
+  to_possible = contact::distance_to(possibly_occupied_, model_->grid);
+  return true;
 }
 
 bool VoxelBelief::excludes(const Pose& base_from_target, double radius) const {

@@ -59,7 +59,7 @@ class VoxelBelief {
                               std::vector<Bitset> candidates);
 
  private:
-  bool shrink(ContactRecord& record);
+  bool shrink(ContactRecord& record, std::vector<float>& to_possible);
 
   std::shared_ptr<const VoxelModel> model_;
   Bitset possibly_occupied_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "contact/target_field.hpp"
+
 namespace tactus::contact {
 namespace {
 
@@ -58,10 +60,10 @@ BallTree::BallTree(const Mesh& mesh, double piece_radius) {
   for (std::size_t shell = 0; shell < shells.size(); ++shell)
     for (const geometry::Triangle& t : shells[shell].triangles)
       cut(geometry::corners(shells[shell], t), static_cast<int>(shell), piece_radius, pieces_);
-  grow(0, pieces_.size());
+  root_ = grow(0, pieces_.size());
 }
 
-/// Makes the block over pieces [begin, end), and those below it; returns its index.
+/// Makes the block over pieces [begin, end), and those below it; returns the link to it.
 std::int32_t BallTree::grow(std::size_t begin, std::size_t end) {
   const auto self = static_cast<std::int32_t>(blocks_.size());
   kernel::Block block{};
@@ -74,7 +76,8 @@ std::int32_t BallTree::grow(std::size_t begin, std::size_t end) {
     block.next[lane] = last - first == 1 ? ~static_cast<std::int32_t>(first) : grow(first, last);
   }
   blocks_[static_cast<std::size_t>(self)] = block;
-  return self;
+  const float smallest = *std::min_element(block.radius, block.radius + parts.size());
+  return kernel::link(self, TargetField::level_for(static_cast<double>(smallest)));
 }
 
 /// A ball and a box about the pieces [first, last).

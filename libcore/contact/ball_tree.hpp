@@ -27,7 +27,8 @@ class BallTree {
   /// Pieces are halved until a ball of `piece_radius` (m) holds each.
   BallTree(const Mesh& mesh, double piece_radius);
 
-  const std::vector<kernel::Block>& blocks() const { return blocks_; }  ///< the root first
+  const std::vector<kernel::Block>& blocks() const { return blocks_; }
+  std::int32_t root() const { return root_; }  ///< the link to the root's block
   const std::vector<Piece>& pieces() const { return pieces_; }
 
  private:
@@ -36,6 +37,7 @@ class BallTree {
 
   std::vector<Piece> pieces_;
   std::vector<kernel::Block> blocks_;
+  std::int32_t root_;
 };
 
 /// A pose as the kernels take it.

@@ -76,7 +76,7 @@ TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_f
     return field_.bounds(centre).lower < 0.0 && side_unknown(piece.shell) && field_.tree().contains(centre);
   };
   kernel::Walk walk;
-  walk.start();
+  walk.start(body.balls().root());
   do {
     if (kernel_.walk(body.balls().blocks().data(), image_.view(), at, question, walk) == kernel::Verdict::hit)
       return {true, 0.0};
@@ -183,11 +183,11 @@ void TargetContact::nearest(const Body& body, const Pose& target_from_body, Near
   const kernel::Placement at = placement(target_from_body);
   std::array<std::pair<float, std::int32_t>, kernel::Walk::most_blocks> stack;
   std::size_t depth = 0;
-  stack[depth++] = {-1e30f, 0};
+  stack[depth++] = {-1e30f, body.balls().root()};
   while (depth > 0) {
     const auto [bound, index] = stack[--depth];
     if (bound >= best.distance) continue;
-    const kernel::Block& block = body.balls().blocks()[index];
+    const kernel::Block& block = body.balls().blocks()[index / 4];
     float lower[kernel::lanes], upper[kernel::lanes];
     kernel_.measure(block, image_.view(), at, lower, upper);
     std::array<std::pair<float, std::int32_t>, kernel::lanes> open;

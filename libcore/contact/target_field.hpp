@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "contact/kernel/descent.hpp"
@@ -8,7 +9,7 @@
 
 namespace tactus::contact {
 
-/// A distance field as the kernels read it: two bytes a sample, so that more of it stays near the processor. Const.
+/// A distance field as the kernels read it: two bytes a sample, and every second and every fourth sample apart. Const.
 class TargetField {
  public:
   explicit TargetField(const geometry::DistanceField& field);
@@ -16,10 +17,14 @@ class TargetField {
   TargetField& operator=(const TargetField&) = delete;
 
   const kernel::Field& view() const { return view_; }
-  std::size_t bytes() const { return samples_.size() * sizeof(std::int16_t); }
+
+  /// The coarsest level whose samples are close enough together for parts of such a radius (m).
+  static int level_for(double radius);
 
  private:
-  std::vector<std::int16_t> samples_;
+  void add_level(const geometry::DistanceField& field, int level);
+
+  std::array<std::vector<std::int16_t>, kernel::Field::levels> samples_;
   kernel::Field view_{};
 };
 

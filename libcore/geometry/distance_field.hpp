@@ -39,6 +39,9 @@ class DistanceField {
   double spacing() const { return spacing_; }
   const Vector3& origin() const { return origin_; }           ///< of the first sample
   const std::array<int, 3>& count() const { return count_; }  ///< of samples along x, y, z
+  float sample(const std::array<int, 3>& i) const {
+    return samples_[i[0] + count_[0] * (i[1] + std::size_t(1) * count_[1] * i[2])];
+  }
   const std::vector<float>& samples() const { return samples_; }  ///< x fastest
   std::size_t bytes() const { return samples_.size() * sizeof(float); }
 

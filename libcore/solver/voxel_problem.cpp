@@ -161,35 +161,52 @@ class VoxelState : public BeliefState {
     return std::max(0.0, box.distance(base_from_tool.translation()) - problem_->tool_reach_);
   }
 
-  /// |S n PO| and the evidence of C for each waypoint; S counts what a no-contact outcome would remove.
+  /// S counts what a no-contact outcome would remove.
   Choice weigh(const MotionPtr& motion, const BoxCounts& counts) const {
     const SweptVoxels& swept = problem_->swept(motion);
-    const std::size_t waypoints = motion->path.size();
-    std::vector<double> likelihood(waypoints, 0.0), removed(waypoints, 0.0);
-    std::vector<Box> entered_box(waypoints);
-    const std::vector<belief::ContactRecord>& contacts = voxels_.contacts();
-    double total = 0.0;
-    for (std::size_t i = 1; i < waypoints; ++i) {
-      double entered = 0.0;
-      std::vector<ContactEvidence> evidence(contacts.size(), {0.0, 0.0, 1e30});
-      for (std::size_t k = swept.entered_by(i - 1); k < swept.entered_by(i); ++k) {
-        const std::size_t v = swept.voxels[k];
-        if (!voxels_.possibly_occupied().test(v)) continue;
-        entered += 1.0;
-        entered_box[i].add(grid().centre(v));
-        for (std::size_t c = 0; c < contacts.size(); ++c) {
-          evidence[c].overlap += contacts[c].candidates.test(v) ? 1.0 : 0.0;
-          evidence[c].distance = std::min(evidence[c].distance, static_cast<double>(contacts[c].distance[v]));
-        }
-      }
-      for (std::size_t c = 0; c < contacts.size(); ++c)
-        evidence[c].size = static_cast<double>(contacts[c].candidates.count());
-      likelihood[i] = contact_likelihood(entered, static_cast<double>(count_), voxels_.model().target_voxels,
-                                         voxels_.model().diameter, evidence);
-      removed[i] = total += entered;
+    std::vector<std::uint32_t> entered = contact::entered_of(swept, voxels_.possibly_occupied());
+    entered.front() = 0;  // the robot is there already
+    const std::vector<double> probability =
+        calibrated() ? shares(motion) : first_contact_probabilities(likelihoods(swept, entered));
+    return choice_of(motion, probability, swept, entered, counts);
+  }
+
+  /// Calls `visit(voxel)` for S(q_i, a) n PO.
+  template <typename Visit>
+  void for_each_entered(const SweptVoxels& swept, std::size_t waypoint, Visit&& visit) const {
+    for (std::size_t k = swept.entered_by(waypoint - 1); k < swept.entered_by(waypoint); ++k)
+      if (voxels_.possibly_occupied().test(swept.voxels[k])) visit(swept.voxels[k]);
+  }
+
+  /// The paper's, by waypoint, from how many voxels of PO each enters and the evidence of C.
+  std::vector<double> likelihoods(const SweptVoxels& swept, const std::vector<std::uint32_t>& entered) const {
+    const belief::VoxelModel& model = voxels_.model();
+    std::vector<double> result(entered.size(), 0.0);
+    for (std::size_t i = 1; i < entered.size(); ++i)
+      if (entered[i] > 0)
+        result[i] = contact_likelihood(entered[i], static_cast<double>(count_), model.target_voxels, model.diameter,
+                                       evidence(swept, i));
+    return result;
+  }
+
+  std::vector<ContactEvidence> evidence(const SweptVoxels& swept, std::size_t waypoint) const {
+    std::vector<ContactEvidence> result;
+    for (const belief::ContactRecord& contact : voxels_.contacts()) {
+      ContactEvidence of_contact{0.0, static_cast<double>(contact.candidates.count()), 1e30};
+      for_each_entered(swept, waypoint, [&](std::size_t v) {
+        of_contact.overlap += contact.candidates.test(v) ? 1.0 : 0.0;
+        of_contact.distance = std::min(of_contact.distance, static_cast<double>(contact.distance[v]));
+      });
+      result.push_back(of_contact);
     }
-    return choice_of(motion, calibrated() ? shares(motion) : first_contact_probabilities(likelihood), removed,
-                     entered_box, counts);
+    return result;
+  }
+
+  /// Around S(q_i, a) n PO.
+  Box box_entered(const SweptVoxels& swept, std::size_t waypoint) const {
+    Box box;
+    for_each_entered(swept, waypoint, [&](std::size_t v) { box.add(grid().centre(v)); });
+    return box;
   }
 
   bool calibrated() const { return feasible_.count() >= least_poses; }
@@ -204,8 +221,8 @@ class VoxelState : public BeliefState {
     return result;
   }
 
-  Choice choice_of(const MotionPtr& motion, const std::vector<double>& probability, const std::vector<double>& removed,
-                   const std::vector<Box>& entered_box, const BoxCounts& counts) const {
+  Choice choice_of(const MotionPtr& motion, const std::vector<double>& probability, const SweptVoxels& swept,
+                   const std::vector<std::uint32_t>& entered, const BoxCounts& counts) const {
     const action::Task& task = *problem_->model_->task;
     const std::size_t waypoints = motion->path.size();
     const double lead =
@@ -213,18 +230,20 @@ class VoxelState : public BeliefState {
     const double within = voxels_.model().diameter + grid().half_diagonal();
     const auto delta = static_cast<double>(problem_->model_->options.delta);
     Choice choice{motion, {}};
-    double kept = 0.0;
-    Box near;  // where the robot last entered PO: a contact is about there
+    double kept = 0.0, remaining = static_cast<double>(count_);
+    std::size_t last = 0;  // where the robot last entered PO: a contact is about there
     for (std::size_t i = 1; i <= waypoints; ++i) {
-      if (i < waypoints && !entered_box[i].empty()) near = entered_box[i];
+      remaining -= entered[i - 1];
+      if (i < waypoints && entered[i] > 0) last = i;
       if (probability[i] < least_probability && i < waypoints) continue;
       Outcome outcome;
       outcome.waypoint = i;
       outcome.probability = probability[i];
       kept += outcome.probability;
       outcome.cost = task.options().cost.action + lead + motion->cost_to[std::min(i, waypoints - 1)];
-      double left = static_cast<double>(count_) - removed[std::min(i, waypoints) - 1];
-      if (i < waypoints && !near.empty()) left = std::min(left, static_cast<double>(counts.in(near.inflated(within))));
+      double left = remaining;
+      if (i < waypoints && last > 0)
+        left = std::min(left, static_cast<double>(counts.in(box_entered(swept, last).inflated(within))));
       outcome.goal = left <= delta;
       const Vector3 tool = motion->bodies.base_from_body(std::min(i, waypoints - 1), 0).translation();
       const double away = i < waypoints ? 0.0 : std::max(0.0, grid().box().distance(tool) - problem_->tool_reach_);

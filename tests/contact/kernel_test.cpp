@@ -61,8 +61,8 @@ TEST_P(KernelLaw, WalksAreThePortableOnes) {
     const kernel::Question question{threshold, rng.below(2) == 0 ? 0.0f : 0.4f * std::abs(threshold),
                                     rng.below(2) == 0};
     kernel::Walk ours, theirs;
-    ours.start();
-    theirs.start();
+    ours.start(tree.root());
+    theirs.start(tree.root());
     do {
       const auto verdict = kernel().walk(tree.blocks().data(), field.view(), placement, question, ours);
       ASSERT_EQ(verdict, kernel::portable.walk(tree.blocks().data(), field.view(), placement, question, theirs));

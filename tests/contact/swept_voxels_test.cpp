@@ -52,6 +52,77 @@ TEST(SweptVoxels, AreThoseWhoseCentreSomeBodyHolds) {
   EXPECT_GT(total, 500U);
 }
 
+std::vector<const contact::kernel::VoxelKernel*> kernels_of_machine() {
+  std::vector<const contact::kernel::VoxelKernel*> kernels;
+  for (const contact::kernel::VoxelKernel* const* kernel = contact::kernel::voxel_kernels(); *kernel; ++kernel)
+    if ((*kernel)->supported()) kernels.push_back(*kernel);
+  return kernels;
+}
+
+Bitset random_members(std::size_t size, double density, Rng& rng) {
+  Bitset members(size);
+  for (std::size_t i = 0; i < size; ++i)
+    if (rng.uniform() < density) members.set(i);
+  return members;
+}
+
+/// The machine may have the portable one alone.
+TEST(SweptVoxels, AreTheSameByEveryKernelInTheSameOrder) {
+  Rng rng(8);
+  for (int m = 0; m < 24; ++m) {
+    const Scene& scene = scene_of(static_cast<std::size_t>(m) % pairings().size());
+    const Motion motion(scene, random_waypoints(rng));
+    const VoxelGrid grid = grid_around(motion, rng.uniform(0.003, 0.02));
+    const auto by = [&](const contact::kernel::VoxelKernel& kernel) {
+      return contact::swept_voxels(scene.contact.bodies(), motion.path, grid, kernel);
+    };
+    const SweptVoxels portable = by(contact::kernel::voxels_portable);
+    for (const contact::kernel::VoxelKernel* kernel : kernels_of_machine()) {
+      const SweptVoxels swept = by(*kernel);
+      ASSERT_EQ(swept.voxels, portable.voxels) << kernel->name;
+      ASSERT_EQ(swept.entered, portable.entered) << kernel->name;
+      ASSERT_EQ(swept.word, portable.word) << kernel->name;
+      ASSERT_EQ(swept.mask, portable.mask) << kernel->name;
+    }
+  }
+}
+
+TEST(SweptVoxels, AreTheSameWhereWaypointsClearOfTheRegionArePassedOver) {
+  Rng rng(9);
+  std::size_t total = 0;
+  for (int m = 0; m < 12; ++m) {
+    const std::size_t s = static_cast<std::size_t>(m) % pairings().size();
+    const Scene& scene = scene_of(s);
+    const std::vector<JointVector> waypoints = random_waypoints(rng);
+    const Motion motion(scene, waypoints);
+    const Vector3 corner = motion.track.front().front().ball.centre;
+    const VoxelGrid grid({corner, corner + Vector3(0.05, 0.04, 0.03)}, 0.005);
+    const contact::RobotBodies near_grid(scene.arm.model, scene.arm.tip, pairings()[s].tool.mesh(), grid.box());
+    const SweptVoxels swept = contact::swept_voxels(near_grid, BodyPath(near_grid, waypoints), grid);
+    const SweptVoxels all = contact::swept_voxels(scene.contact.bodies(), motion.path, grid);
+    ASSERT_EQ(swept.voxels, all.voxels);
+    ASSERT_EQ(swept.entered, all.entered);
+    total += all.voxels.size();
+  }
+  EXPECT_GT(total, 500U);
+}
+
+TEST(EnteredOf, CountsTheMembersAmongTheVoxelsThatEachWaypointEnters) {
+  Rng rng(10);
+  for (int m = 0; m < 24; ++m) {
+    const Scene& scene = scene_of(static_cast<std::size_t>(m) % pairings().size());
+    const Motion motion(scene, random_waypoints(rng));
+    const VoxelGrid grid = grid_around(motion, rng.uniform(0.004, 0.02));
+    const SweptVoxels swept = contact::swept_voxels(scene.contact.bodies(), motion.path, grid);
+    const Bitset members = random_members(grid.size(), rng.uniform(), rng);
+    std::vector<std::uint32_t> plain(motion.path.size(), 0);
+    for (std::size_t i = 0, k = 0; i < plain.size(); ++i)
+      for (; k < swept.entered_by(i); ++k) plain[i] += members.test(swept.voxels[k]) ? 1U : 0U;
+    for (const contact::kernel::VoxelKernel* kernel : kernels_of_machine())
+      ASSERT_EQ(contact::entered_of(swept, members, *kernel), plain) << kernel->name;
+  }
+}
+
 /// All that belongs there, and little more: the look-up of distances may err by a few millimetres.
 TEST(ContactCandidates, AreTheVoxelsAroundTheSurfaceThatTheRobotHasNotFilledBefore) {
   constexpr double slack = 0.001, error = 0.008;
@@ -89,11 +160,11 @@ TEST(DistanceTo, IsTheNearestMemberOfAll) {
       const double pitch = 0.004;
       const VoxelGrid grid({Vector3::Zero(), pitch * Vector3(shape[0], shape[1], shape[2])}, pitch);
       ASSERT_EQ(grid.shape(), shape);
-      Bitset members(grid.size());
-      for (std::size_t v = 0; v < grid.size(); ++v)
-        if (rng.uniform() < density) members.set(v);
+      const Bitset members = random_members(grid.size(), density, rng);
       const std::vector<float> found = contact::distance_to(members, grid);
       ASSERT_EQ(found.size(), grid.size());
+      for (const contact::kernel::VoxelKernel* kernel : kernels_of_machine())
+        ASSERT_EQ(contact::distance_to(members, grid, *kernel), found) << kernel->name;
       for (std::size_t v = 0; v < grid.size(); ++v) {
         double nearest = 1e30;
         members.for_each([&](std::size_t m) { nearest = std::min(nearest, (grid.centre(m) - grid.centre(v)).norm()); });

@@ -17,21 +17,32 @@ struct alignas(64) Block {
   float centre[3][lanes];    ///< m, in the body's frame
   float radius[lanes];       ///< m
   float half[3][lanes];      ///< m: half the sides of the box, along the body's axes
-  std::int32_t next[lanes];  ///< of a block its index; of a piece its complement
+  std::int32_t next[lanes];  ///< of a block its `link`; of a piece the complement of its index
 };
 inline constexpr float no_ball = -1e30f;
 
-/// Samples of a signed distance on a lattice, x fastest, in units of `quantum`.
-struct Field {
+/// Samples of a signed distance on a lattice, x fastest, in units of the field's quantum.
+struct Lattice {
   const std::int16_t* samples;  ///< one more than there are is readable
-  float quantum;                ///< m
   float origin[3];              ///< m
   float spacing, inverse_spacing;
   float last[3];  ///< index of the last sample
   std::int32_t stride[3];
+};
+
+/// A signed distance, sampled ever more coarsely: large parts of a surface need no fine samples, and coarse ones stay
+/// near the processor.
+struct Field {
+  static constexpr int levels = 3;
+
+  Lattice lattices[levels];          ///< the finest first
+  float quantum;                     ///< m
   float box_centre[3], box_half[3];  ///< m, of the surface
   float slack;                       ///< m that rounding may be wrong by
 };
+
+/// A block and the level of the field that is fine enough for it, in one number.
+constexpr std::int32_t link(std::int32_t block, int level) { return block * 4 + level; }
 
 /// target_from_body: the rotation row by row, and the translation in metres.
 struct Placement {
@@ -49,7 +60,7 @@ struct Question {
 
 enum class Verdict : std::int32_t { free, hit, undecided };
 
-/// A walk through a tree that can be resumed: `stack` holds the blocks still to be looked at. While
+/// A walk through a tree that can be resumed: `stack` links to the blocks still to be looked at. While
 /// `Verdict::undecided` comes back, the pieces listed have to be decided by their triangles; if `depth` is not 0 the
 /// walk then goes on when called again.
 struct Walk {
@@ -62,8 +73,8 @@ struct Walk {
   std::int32_t piece_count;
   float clearance;  ///< m above the threshold of all that has been passed over
 
-  void start() {
-    stack[0] = 0;
+  void start(std::int32_t root) {
+    stack[0] = root;
     depth = 1;
     piece_count = 0;
     clearance = 1e30f;
@@ -91,7 +102,7 @@ struct Kernel {
   Verdict (*walk)(const Block* blocks, const Field& field, const Placement& target_from_body, const Question& question,
                   Walk& walk);
 
-  /// Bounds of the distance at the centres of a block's balls.
+  /// Bounds of the distance at the centres of a block's parts, on the finest lattice.
   void (*measure)(const Block& block, const Field& field, const Placement& target_from_body, float lower[lanes],
                   float upper[lanes]);
 

@@ -37,19 +37,20 @@ struct Over {
   }
 
   /// Sixteen points against the samples nearest to them: the distance is 1-Lipschitz.
-  static Bounds bounds(const Field& field, const Points& p) {
+  static Bounds bounds(const Field& field, int level, const Points& p) {
+    const Lattice& lattice = field.lattices[level];
     F squared = V::set(0.0f), off_lattice = V::set(0.0f);
     I index = V::set_int(0);
     for (int d = 0; d < 3; ++d) {
-      const F scaled = V::mul(V::sub(p.v[d], V::set(field.origin[d])), V::set(field.inverse_spacing));
-      const F nearest = V::min(V::max(V::floor(V::add(scaled, V::set(0.5f))), V::set(0.0f)), V::set(field.last[d]));
+      const F scaled = V::mul(V::sub(p.v[d], V::set(lattice.origin[d])), V::set(lattice.inverse_spacing));
+      const F nearest = V::min(V::max(V::floor(V::add(scaled, V::set(0.5f))), V::set(0.0f)), V::set(lattice.last[d]));
       const F offset = V::sub(scaled, nearest);
       squared = V::add(squared, V::mul(offset, offset));
       off_lattice = V::max(off_lattice, magnitude(offset));
-      index = V::add_int(index, V::mul_int(V::to_int(nearest), V::set_int(field.stride[d])));
+      index = V::add_int(index, V::mul_int(V::to_int(nearest), V::set_int(lattice.stride[d])));
     }
-    const F sample = V::mul(V::gather(field.samples, index), V::set(field.quantum));
-    const F error = V::add(V::mul(V::sqrt(squared), V::set(field.spacing)), V::set(field.slack));
+    const F sample = V::mul(V::gather(lattice.samples, index), V::set(field.quantum));
+    const F error = V::add(V::mul(V::sqrt(squared), V::set(lattice.spacing)), V::set(field.slack));
     Bounds result{V::sub(sample, error), V::add(sample, error)};
     if (V::less(V::set(0.5001f), off_lattice) != 0) result.lower = V::max(result.lower, outside(field, p));
     return result;
@@ -106,7 +107,7 @@ struct Over {
   }
 
   static void measure(const Block& block, const Field& field, const Placement& placement, float* lower, float* upper) {
-    const Bounds at = bounds(field, placed(placement, centres(block)));
+    const Bounds at = bounds(field, 0, placed(placement, centres(block)));
     V::store(lower, at.lower);
     V::store(upper, at.upper);
   }
@@ -138,7 +139,8 @@ struct Over {
     walk.piece_count = 0;
     while (walk.depth > 0) {
       if (walk.piece_count > Walk::most_pieces - lanes) return Verdict::undecided;
-      const Block& block = blocks[walk.stack[--walk.depth]];
+      const std::int32_t next = walk.stack[--walk.depth];
+      const Block& block = blocks[next / 4];
       F radius = V::load(block.radius);
       const std::uint32_t is_part = V::less(V::set(0.5f * no_ball), radius);
       const Points in_body = centres(block), in_target = placed(placement, in_body);
@@ -148,7 +150,7 @@ struct Over {
         continue;
       }
 
-      const Bounds at = bounds(field, in_target);
+      const Bounds at = bounds(field, next % 4, in_target);
       const std::uint32_t is_piece = is_part & V::negative(V::load_int(block.next));
       F certain = threshold;
       if (question.threshold < 0.0f)
