@@ -57,6 +57,7 @@ std::vector<Range> sixteenths(std::vector<Piece>& pieces, Range whole) {
 
 BallTree::BallTree(const Mesh& mesh, double piece_radius) {
   const std::vector<Mesh> shells = geometry::shells(geometry::merged_vertices(mesh));
+  shells_ = static_cast<int>(shells.size());
   for (std::size_t shell = 0; shell < shells.size(); ++shell)
     for (const geometry::Triangle& t : shells[shell].triangles)
       cut(geometry::corners(shells[shell], t), static_cast<int>(shell), piece_radius, pieces_);
@@ -67,7 +68,7 @@ BallTree::BallTree(const Mesh& mesh, double piece_radius) {
 std::int32_t BallTree::grow(std::size_t begin, std::size_t end) {
   const auto self = static_cast<std::int32_t>(blocks_.size());
   kernel::Block block{};
-  std::fill_n(block.radius, kernel::lanes, kernel::no_ball);
+  for (float(&half)[kernel::lanes] : block.half) std::fill_n(half, kernel::lanes, kernel::no_part);
   blocks_.push_back(block);
   const std::vector<Range> parts = sixteenths(pieces_, {begin, end});
   for (std::size_t lane = 0; lane < parts.size(); ++lane) {
@@ -94,6 +95,15 @@ void BallTree::bound(std::size_t first, std::size_t last, kernel::Block& block, 
   for (std::size_t i = first; i < last; ++i)
     radius = std::max(radius, (pieces_[i].centre - centre).norm() + pieces_[i].radius);
   block.radius[lane] = rounded_up(radius);
+}
+
+kernel::Extent extent(const geometry::Box& box) {
+  kernel::Extent result;
+  for (int d = 0; d < 3; ++d) {
+    result.centre[d] = static_cast<float>(box.centre()[d]);
+    result.half[d] = static_cast<float>(0.5 * box.size()[d]);
+  }
+  return result;
 }
 
 kernel::Placement placement(const Pose& pose) {

@@ -29,6 +29,7 @@ class BallTree {
 
   const std::vector<kernel::Block>& blocks() const { return blocks_; }
   std::int32_t root() const { return root_; }  ///< the link to the root's block
+  int shells() const { return shells_; }
   const std::vector<Piece>& pieces() const { return pieces_; }
 
  private:
@@ -37,10 +38,12 @@ class BallTree {
 
   std::vector<Piece> pieces_;
   std::vector<kernel::Block> blocks_;
-  std::int32_t root_;
+  std::int32_t root_ = 0;
+  int shells_ = 0;
 };
 
-/// A pose as the kernels take it.
+/// A pose, and a box, as the kernels take them.
 kernel::Placement placement(const Pose& pose);
+kernel::Extent extent(const geometry::Box& box);
 
 }  // namespace tactus::contact

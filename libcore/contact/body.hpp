@@ -20,6 +20,7 @@ class Body {
   const geometry::TriangleTree& tree() const { return tree_; }
   const geometry::Sphere& bounding_sphere() const { return sphere_; }
   const Mesh& mesh() const { return mesh_; }
+  const kernel::Extent& extent() const { return extent_; }  ///< the box of its vertices
 
   /// Signed distance to the body's surface, sampled finely enough for swept voxels.
   const geometry::DistanceField& field() const { return *field_; }
@@ -29,6 +30,7 @@ class Body {
   geometry::TriangleTree tree_;
   geometry::Sphere sphere_;
   BallTree balls_;
+  kernel::Extent extent_;
   std::shared_ptr<const geometry::DistanceField> field_;
 };
 

@@ -14,15 +14,6 @@ constexpr double field_border = 0.01;
 constexpr std::size_t field_samples = 1'000'000;
 constexpr double box_slack = 2e-6;  // m, of boxes compared in single precision
 
-kernel::Extent extent(const geometry::Box& box) {
-  kernel::Extent result;
-  for (int d = 0; d < 3; ++d) {
-    result.centre[d] = static_cast<float>(box.centre()[d]);
-    result.half[d] = static_cast<float>(0.5 * box.size()[d]);
-  }
-  return result;
-}
-
 /// The lanes of sixteen from `first` on that are in [from, to).
 std::uint32_t lanes_within(std::size_t first, std::size_t from, std::size_t to) {
   std::uint32_t mask = 0xffffu;
@@ -33,27 +24,48 @@ std::uint32_t lanes_within(std::size_t first, std::size_t from, std::size_t to) 
 
 }  // namespace
 
+/// A shell that crosses nothing is inside the target or outside it as a whole: one of its pieces is asked. Only shells
+/// with pieces that the field leaves undecided can be inside.
+struct TargetContact::Sides {
+  std::vector<const Piece*> asked;  ///< one a shell
+
+  void ask(const Body& body, const kernel::Walk& walk) {
+    for (int i = 0; i < walk.piece_count; ++i) {
+      const Piece& piece = body.balls().pieces()[walk.pieces[i]];
+      if (std::none_of(asked.begin(), asked.end(), [&](const Piece* p) { return p->shell == piece.shell; }))
+        asked.push_back(&piece);
+    }
+  }
+  bool inside(const TargetContact& contact, const Pose& target_from_body) const {
+    return std::any_of(asked.begin(), asked.end(), [&](const Piece* piece) {
+      const Vector3 centre = target_from_body * piece->centre;
+      return contact.field_.bounds(centre).lower < 0.0 && contact.field_.tree().contains(centre);
+    });
+  }
+};
+
 TargetContact::TargetContact(std::shared_ptr<const RobotBodies> bodies, const Mesh& target, double margin,
                              const kernel::Kernel& kernel)
     : bodies_(std::move(bodies)),
       target_(target),
       field_(target, field_spacing, field_border, field_samples),
       image_(field_),
+      extent_(extent(field_.tree().box())),
       kernel_(kernel),
       margin_(margin) {
   for (const Mesh& shell : geometry::shells(geometry::merged_vertices(target)))
     shell_points_.push_back(shell.vertices.front());
 }
 
-/// Where the look-up leaves a piece undecided. For a depth (threshold < 0) the piece's middle speaks; for a wide reach
+/// Decides a piece that the look-ups leave undecided. For a depth (threshold < 0) its middle speaks; for a wide reach
 /// its ball, which errs to a hit; else its triangle against the target's.
 bool TargetContact::piece_hit(const Piece& piece, const Pose& target_from_body, double threshold) const {
+  const geometry::TriangleTree& tree = field_.tree();
+  if (threshold >= 0.0 && threshold <= std::max(margin_, piece.radius))
+    return tree.within(geometry::transformed(piece.corners, target_from_body), threshold);
   const Vector3 centre = target_from_body * piece.centre;
-  if (threshold < 0.0)
-    return field_.tree().distance(centre, -threshold) >= -threshold && field_.tree().contains(centre);
-  if (threshold > std::max(margin_, piece.radius))
-    return field_.tree().distance(centre, threshold + 1.01 * piece.radius) <= threshold + piece.radius;
-  return field_.tree().within(geometry::transformed(piece.corners, target_from_body), threshold);
+  if (threshold < 0.0) return tree.distance(centre, -threshold) >= -threshold && tree.contains(centre);
+  return tree.distance(centre, threshold + 1.01 * piece.radius) <= threshold + piece.radius;
 }
 
 /// Goes through the body's balls, deepest detail only where the target is near. A reach much wider than a ball takes
@@ -64,29 +76,23 @@ TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_f
                                   wide ? static_cast<float>(relative_detail * std::abs(threshold)) : 0.0f,
                                   wide && threshold > 0.0};
   const kernel::Placement at = placement(target_from_body);
-  std::uint64_t asked = 0;  // a shell that crosses nothing is inside or outside as a whole: one of its points is asked
-  const auto side_unknown = [&asked](int shell) {
-    if (shell >= 64) return true;
-    const bool first = (asked >> shell & 1) == 0;
-    asked |= std::uint64_t{1} << shell;
-    return first;
-  };
-  const auto inside = [&](const Piece& piece) {
-    const Vector3 centre = target_from_body * piece.centre;
-    return field_.bounds(centre).lower < 0.0 && side_unknown(piece.shell) && field_.tree().contains(centre);
-  };
+  Sides sides;
   kernel::Walk walk;
   walk.start(body.balls().root());
+  const auto all_outside = [&] { return walk.clearance < kernel::none_above && body.balls().shells() == 1; };
+  bool pieces_free = false;
   do {
     if (kernel_.walk(body.balls().blocks().data(), image_.view(), at, question, walk) == kernel::Verdict::hit)
       return {true, 0.0};
-    for (int i = 0; i < walk.piece_count; ++i) {
-      const Piece& piece = body.balls().pieces()[walk.pieces[i]];
-      if (piece_hit(piece, target_from_body, threshold) || (threshold >= 0.0 && inside(piece))) return {true, 0.0};
-    }
+    for (int i = 0; i < walk.piece_count; ++i)
+      if (piece_hit(body.balls().pieces()[walk.pieces[i]], target_from_body, threshold)) return {true, 0.0};
+    pieces_free = pieces_free || walk.piece_count > 0;
+    if (threshold >= 0.0 && !all_outside()) sides.ask(body, walk);
   } while (walk.depth > 0);
-  if (threshold >= 0.0 && target_inside(body, target_from_body)) return {true, 0.0};
-  return {false, std::max(0.0, static_cast<double>(walk.clearance))};
+  if (threshold >= 0.0 &&
+      ((!all_outside() && sides.inside(*this, target_from_body)) || target_inside(body, target_from_body)))
+    return {true, 0.0};
+  return {false, pieces_free ? 0.0 : std::max(0.0, static_cast<double>(walk.clearance))};
 }
 
 bool TargetContact::target_inside(const Body& body, const Pose& target_from_body) const {
@@ -99,8 +105,8 @@ bool TargetContact::target_inside(const Body& body, const Pose& target_from_body
 
 std::uint32_t TargetContact::near_waypoints(const BodyPath& path, std::size_t body, std::size_t block,
                                             const kernel::Placement& target_from_base, double reach) const {
-  return kernel_.near(path.pose_block(block, body), extent(bodies_->body(body).tree().box()), target_from_base,
-                      extent(field_.tree().box()), static_cast<float>(std::max(0.0, reach) + box_slack));
+  return kernel_.near(path.pose_block(block, body), bodies_->body(body).extent(), target_from_base, extent_,
+                      static_cast<float>(std::max(0.0, reach) + box_slack));
 }
 
 std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, const Pose& target_from_base,
@@ -193,7 +199,7 @@ void TargetContact::nearest(const Body& body, const Pose& target_from_body, Near
     std::array<std::pair<float, std::int32_t>, kernel::lanes> open;
     std::size_t count = 0;
     for (int lane = 0; lane < kernel::lanes; ++lane)
-      if (block.radius[lane] > 0.5f * kernel::no_ball && lower[lane] - block.radius[lane] < best.distance)
+      if (block.half[0][lane] > kernel::no_part && lower[lane] - block.radius[lane] < best.distance)
         open[count++] = {lower[lane] - block.radius[lane], block.next[lane]};
     std::sort(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count), std::greater<>());
     for (std::size_t k = count; k-- > 0;)

@@ -68,6 +68,7 @@ class TargetContact {
   double margin() const { return margin_; }
 
  private:
+  struct Sides;
   struct Reach {
     bool hit = false;
     double clearance = 0.0;  ///< of what is not hit, above the threshold: the body may move this far without a hit
@@ -88,6 +89,7 @@ class TargetContact {
   Mesh target_;
   geometry::DistanceField field_;
   TargetField image_;
+  kernel::Extent extent_;
   const kernel::Kernel& kernel_;
   double margin_;
   std::vector<Vector3> shell_points_;  ///< one vertex of each shell of the target

@@ -19,7 +19,8 @@ struct alignas(64) Block {
   float half[3][lanes];      ///< m: half the sides of the box, along the body's axes
   std::int32_t next[lanes];  ///< of a block its `link`; of a piece the complement of its index
 };
-inline constexpr float no_ball = -1e30f;
+inline constexpr float no_part = -1e30f;
+inline constexpr float none_above = 1e30f;  ///< m: a clearance before anything has been passed over
 
 /// Samples of a signed distance on a lattice, x fastest, in units of the field's quantum.
 struct Lattice {
@@ -71,13 +72,13 @@ struct Walk {
   std::int32_t depth;
   std::int32_t pieces[most_pieces];
   std::int32_t piece_count;
-  float clearance;  ///< m above the threshold of all that has been passed over
+  float clearance;  ///< m above the threshold of all that has been passed over: pieces listed don't count
 
   void start(std::int32_t root) {
     stack[0] = root;
     depth = 1;
     piece_count = 0;
-    clearance = 1e30f;
+    clearance = none_above;
   }
 };
 

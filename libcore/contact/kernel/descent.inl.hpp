@@ -112,11 +112,6 @@ struct Over {
     V::store(upper, at.upper);
   }
 
-  static void lower_clearance(Walk& walk, std::uint32_t lanes_passed, F gap) {
-    const float lowest = V::least(V::select(lanes_passed, gap, V::set(1e30f)));
-    if (lowest < walk.clearance) walk.clearance = lowest;
-  }
-
   /// Puts blocks on the stack, the nearest last.
   static void push(const Block& block, std::uint32_t which, const float (&gaps)[lanes], Walk& walk) {
     int nearest = __builtin_ctz(which);
@@ -134,38 +129,39 @@ struct Over {
 
   static Verdict walk(const Block* blocks, const Field& field, const Placement& placement, const Question& question,
                       Walk& walk) {
-    const F threshold = V::set(question.threshold);
+    const F zero = V::set(0.0f), threshold = V::set(question.threshold);
     const Surroundings around(field, placement);
+    F clearance = V::set(walk.clearance);
     walk.piece_count = 0;
-    while (walk.depth > 0) {
-      if (walk.piece_count > Walk::most_pieces - lanes) return Verdict::undecided;
+    while (walk.depth > 0 && walk.piece_count <= Walk::most_pieces - lanes) {
       const std::int32_t next = walk.stack[--walk.depth];
       const Block& block = blocks[next / 4];
-      F radius = V::load(block.radius);
-      const std::uint32_t is_part = V::less(V::set(0.5f * no_ball), radius);
       const Points in_body = centres(block), in_target = placed(placement, in_body);
       F gap = V::sub(box_gap(block, field, around, in_body, in_target), threshold);
-      if ((is_part & V::less_equal(gap, V::set(0.0f))) == 0) {
-        lower_clearance(walk, is_part, gap);
+      if (V::less_equal(gap, zero) == 0) {
+        clearance = V::min(clearance, gap);
         continue;
       }
 
       const Bounds at = bounds(field, next % 4, in_target);
-      const std::uint32_t is_piece = is_part & V::negative(V::load_int(block.next));
-      F certain = threshold;
+      const std::uint32_t is_piece = V::negative(V::load_int(block.next));
+      F radius = V::load(block.radius), certain = threshold;
       if (question.threshold < 0.0f)
-        radius = V::select(is_piece, V::set(0.0f), radius);
+        radius = V::select(is_piece, zero, radius);
       else if (question.by_balls)
         certain = V::select(V::less(radius, threshold), V::add(threshold, radius), threshold);
       if ((is_piece & V::less(at.upper, certain)) != 0) return Verdict::hit;
 
       gap = V::max(gap, V::sub(V::sub(at.lower, threshold), radius));
-      const std::uint32_t open = is_part & V::less_equal(gap, V::set(0.0f));
+      const std::uint32_t open = V::less_equal(gap, zero);
+      clearance = V::min(clearance, V::select(open, V::set(none_above), gap));
       std::uint32_t inner = open & ~is_piece;
       const std::uint32_t fine = inner & V::less(radius, V::set(question.detail));
-      if (fine != 0 && question.threshold > 0.0f) return Verdict::hit;
-      inner &= ~fine;
-      lower_clearance(walk, is_part & ~inner, gap);
+      if (fine != 0) {
+        if (question.threshold > 0.0f) return Verdict::hit;
+        clearance = zero;
+        inner &= ~fine;
+      }
       for (std::uint32_t left = open & is_piece; left != 0; left &= left - 1)
         walk.pieces[walk.piece_count++] = ~block.next[__builtin_ctz(left)];
       if (inner == 0) continue;
@@ -173,7 +169,8 @@ struct Over {
       V::store(gaps, gap);
       push(block, inner, gaps, walk);
     }
-    return walk.piece_count > 0 ? Verdict::undecided : Verdict::free;
+    walk.clearance = V::least(clearance);
+    return walk.depth > 0 || walk.piece_count > 0 ? Verdict::undecided : Verdict::free;
   }
 
   /// Separating axes along the normals of both boxes' faces, in the target's frame.

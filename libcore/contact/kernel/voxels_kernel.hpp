@@ -14,6 +14,7 @@ inline constexpr int voxels_per_block = 16;
 
 /// Columns of a grid that are transformed together.
 inline constexpr int columns_per_batch = 32;
+
 /// The square of a distance, in voxels, to what there is none of: no less than this.
 inline constexpr float no_member = 1e12f;
 
