@@ -58,6 +58,12 @@ class TargetContact {
   /// Whether the robot comes within `radius` (m) of the target at a waypoint; errs as `first_within`.
   bool within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target, double radius) const;
 
+  /// Whether one body reaches the target: inflated by `threshold` if it is positive, deflated by it if it is negative
+  /// (as `first_within` and `first_certain_contact`).
+  bool reaches(std::size_t body, const Pose& target_from_body, double threshold) const {
+    return reach(bodies_->body(body), target_from_body, threshold).hit;
+  }
+
   /// An estimate of the deepest or nearest point at a waypoint, among the corners and middles of the pieces of the
   /// bodies near the region. Nothing sound may rest on it.
   Nearest nearest(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const;

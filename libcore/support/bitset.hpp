@@ -44,6 +44,8 @@ class Bitset {
   }
 
   const std::vector<std::uint64_t>& words() const { return words_; }
+  /// The members among 64 w .. 64 w + 63, the lowest bit first. None may be >= size.
+  void set_word(std::size_t w, std::uint64_t members) { words_[w] = members; }
 
  private:
   std::size_t size_ = 0;
