@@ -154,16 +154,26 @@ std::size_t ContactTables::bytes() const {
   return bytes_;
 }
 
+/// The tables along a motion for targets at one turn and z. Where turn and z stay the same, so does the table.
+std::vector<ContactTables::TablePtr> ContactTables::tables_along(const LatticeMotion& motion, int target_turn,
+                                                                 int z) const {
+  std::vector<TablePtr> tables(motion.size());
+  for (std::size_t k = 1; k < motion.size(); ++k)
+    tables[k] = k > 1 && motion[k].turn == motion[k - 1].turn && motion[k].at[2] == motion[k - 1].at[2]
+                    ? tables[k - 1]
+                    : table({motion[k].turn, target_turn, z - motion[k].at[2]});
+  return tables;
+}
+
 FirstContacts ContactTables::first_contacts(const LatticeMotion& motion) const {
   std::vector<std::vector<std::pair<std::uint32_t, std::uint64_t>>> found(motion.size());
   const std::size_t row_words = lattice_.row_words();
-  const std::uint64_t last_word =
-      lattice_.count[0] % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << lattice_.count[0] % 64) - 1;
-  std::vector<TablePtr> tables(motion.size());
+  const int in_last_word = lattice_.count[0] % 64;
+  const std::uint64_t last_word = in_last_word == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << in_last_word) - 1;
   std::size_t row = 0;
   for (int turn = 0; turn < static_cast<int>(lattice_.target_turns.size()); ++turn)
     for (int z = 0; z < lattice_.count[2]; ++z) {
-      for (std::size_t k = 1; k < motion.size(); ++k) tables[k] = table({motion[k].turn, turn, z - motion[k].at[2]});
+      const std::vector<TablePtr> tables = tables_along(motion, turn, z);
       for (int y = 0; y < lattice_.count[1]; ++y, ++row)
         for (std::size_t w = 0; w < row_words; ++w) {
           std::uint64_t left = w + 1 == row_words ? last_word : ~std::uint64_t{0};

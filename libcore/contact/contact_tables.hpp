@@ -67,6 +67,7 @@ class ContactTables {
   using Key = std::array<int, 3>;  ///< turn of the tool, turn of the target, offset in z
 
   TablePtr table(const Key& key) const;
+  std::vector<TablePtr> tables_along(const LatticeMotion& motion, int target_turn, int z) const;
   Table blank(const Key& key) const;
   Table make(const Key& key) const;
   void check(const support::ByteReader& in, const Key& key, const Table& table) const;

@@ -66,6 +66,11 @@ Mesh model(const std::string& name) {
 
 Target socket() { return {"socket", model("socket")}; }
 
+std::shared_ptr<const contact::RobotBodies> plug_alone() {
+  const Carrier carrier = free_flyer();
+  return std::make_shared<const contact::RobotBodies>(carrier.model, carrier.tool_link, model("plug"));
+}
+
 Setting setting(const Carrier& carrier, Target target, double turn, std::size_t n, std::size_t pairs,
                 std::uint64_t seed) {
   Rng rng(seed);

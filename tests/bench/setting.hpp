@@ -33,4 +33,7 @@ Setting setting(const Carrier& carrier, Target target, double turn, std::size_t 
 
 Target socket();
 
+/// The plug of the shelf as the only body, wherever it may be.
+std::shared_ptr<const contact::RobotBodies> plug_alone();
+
 }  // namespace tactus::bench
