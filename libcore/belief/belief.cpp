@@ -89,7 +89,7 @@ bool Belief::hand_over() {
 }
 
 bool Belief::is_goal() const {
-  if (!cells_) return false;
+  if (!cells_ || (!history_.empty() && history_.back().contact)) return false;
   const Pose base_from_tool = task().base_from_tool(q_);
   return std::all_of(cells_->cells().begin(), cells_->cells().end(), [&](const Cell& cell) {
     return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre), cells_->half_width(cell));

@@ -74,7 +74,8 @@ class Belief {
   const VoxelBelief& voxels() const { return *voxels_; }  ///< phase 1 only
   const CellBelief& cells() const { return *cells_; }     ///< phase 2 only
 
-  /// At the present configuration every pose in every surviving cell has the tool seated within tolerance.
+  /// At the present configuration every pose in every surviving cell has the tool seated within tolerance, and the last
+  /// motion was not stopped by a contact.
   bool is_goal() const;
 
   /// Whether the belief still holds this pose: in the voxel phase every voxel centre inside the target there is

@@ -51,6 +51,10 @@ void check(const PlannerOptions& options) {
     fail(
         "solver: found brtdp-bel, which this version does not have, expected rtdp-bel, rtdp-inad, rtdp-ad, tbl, "
         "frontier or rate");
+  if (std::none_of(names.begin(), names.end(), [&](const auto& entry) { return entry.first == options.solver; }))
+    fail("solver: found " + std::to_string(static_cast<int>(options.solver)) + ", expected 1 to 7");
+  if (!(options.cost_per_bit >= 0.0))
+    fail("cost_per_bit: found " + std::to_string(options.cost_per_bit) + ", expected a number that is not negative");
   if (!(options.budget_seconds > 0.0))
     fail("budget_seconds: found " + std::to_string(options.budget_seconds) + ", expected a positive number");
   if (std::isinf(options.budget_seconds) && options.budget_expansions == 0)
@@ -123,18 +127,29 @@ Answer Planner::query(const belief::Belief& belief) {
 }
 
 void Planner::note_fruitless(const belief::Belief& belief) {
+  const std::vector<belief::Trace>& history = belief.history();
+  const bool goes_on = history.size() >= standing_.observations &&
+                       belief::fingerprint(history, standing_.observations) == standing_.history;
+  if (!goes_on) standing_ = {};
+  const bool asked_again = goes_on && standing_.q.size() != 0 && history.size() == standing_.observations &&
+                           belief.health() == belief::Health::good;
+  if (asked_again) return;
+
   const std::size_t size = belief.phase() == belief::Phase::voxels ? belief.voxels().possibly_occupied().count()
                                                                    : belief.cells().cells().size();
+  const bool is_first = standing_.q.size() == 0;
+  if (is_first || size != standing_.size || belief.configuration() != standing_.q)
+    standing_.fruitless.clear();
+  else if (!history.empty())
+    standing_.fruitless.push_back(history.back().action_id);
   const double bits = belief.summary().bits;
-  const bool shrank = bits < standing_.bits - noticeable_bits;
-  const double reference = shrank ? bits : standing_.bits;
-  const int stalls = shrank ? 0 : standing_.stalls + 1;
-  if (standing_.q.size() == 0 || size != standing_.size || belief.configuration() != standing_.q)
-    standing_ = {belief.configuration(), size, {}, reference, stalls};
-  else if (!belief.history().empty())
-    standing_.fruitless.push_back(belief.history().back().action_id);
-  standing_.bits = reference;
-  standing_.stalls = stalls;
+  const bool shrank = is_first || bits < standing_.bits - noticeable_bits;
+  standing_.stalls = shrank ? 0 : standing_.stalls + 1;
+  if (shrank) standing_.bits = bits;
+  standing_.q = belief.configuration();
+  standing_.size = size;
+  standing_.observations = history.size();
+  standing_.history = belief::fingerprint(history, history.size());
 }
 
 /// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed

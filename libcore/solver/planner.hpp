@@ -80,15 +80,17 @@ class Planner {
   support::Rng rng_;
   /// An action that left the belief and the configuration as they were is not handed out again until something changes;
   /// and after some queries in which the belief hardly shrank only anchored motions are: the poses planned on promise
-  /// more of small touches than the cells can take in.
+  /// more of small touches than the cells can take in. Begins anew with a belief that has been through something else.
   void note_fruitless(const belief::Belief& belief);
 
   struct Standing {
-    robot::JointVector q;
+    std::size_t observations = 0;
+    std::uint64_t history = belief::fingerprint({}, 0);
+    robot::JointVector q;  ///< empty before the first query
     std::size_t size = 0;  ///< cells or voxels
     std::vector<std::uint64_t> fruitless;
-    double bits = 1e300;  ///< when the belief last shrank noticeably
-    int stalls = 0;       ///< queries since then
+    double bits = 0.0;  ///< when the belief last shrank noticeably
+    int stalls = 0;     ///< queries since then
   };
   Standing standing_;
   std::vector<geometry::Pose> poses_;  ///< of the last planning call on poses

@@ -175,8 +175,11 @@ std::vector<std::size_t> PoseProblem::insertion_candidates(const Bitset& members
 
 double PoseProblem::direct_cost(const Pose& base_from_tool, std::size_t pose) const {
   const action::CostWeights& weights = task_->options().cost;
-  return weights.metre * (seated_[pose].translation() - base_from_tool.translation()).norm() +
-         weights.radian * geometry::angle_between(base_from_tool, seated_[pose]) + weights.action;
+  const scene::Target& target = task_->scene().target;
+  const double metres = (seated_[pose].translation() - base_from_tool.translation()).norm();
+  const double radians = geometry::angle_between(base_from_tool, seated_[pose]);
+  return weights.metre * std::max(0.0, metres - target.position_tolerance) +
+         weights.radian * std::max(0.0, radians - target.angle_tolerance) + weights.action;
 }
 
 /// The box in the search frame of the target at every pose.

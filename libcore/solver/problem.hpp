@@ -19,7 +19,7 @@ struct Outcome {
   std::size_t waypoint = 0;
   double probability = 0.0;
   double cost = 0.0;   ///< of the motion up to there, the way to its start and back to the last free waypoint
-  bool goal = false;   ///< the successor needs nothing more
+  bool goal = false;   ///< the successor needs nothing more; on voxels an estimate: it is expected to be handed over
   Values heuristic{};  ///< of the successor; 0 at the goal
 };
 

@@ -8,6 +8,7 @@ namespace tactus::solver {
 namespace {
 
 constexpr double value_change = 1e-9;
+constexpr int most_idle = 1000;  // trials without an expansion: values may climb for ever where no goal can be reached
 
 std::size_t most_likely(const Choice& choice) {
   const auto found = std::max_element(choice.outcomes.begin(), choice.outcomes.end(),
@@ -53,10 +54,14 @@ Search::Search(BeliefStatePtr start_state, const SearchOptions& options) : optio
 void Search::run(support::Deadline& deadline) {
   if (!nodes_[start].expanded) expand(start, deadline);
   bool admissible_done = options_.epsilon <= 0.0;
+  int idle = 0;
   while (!deadline.spent()) {
     const bool explore = !admissible_done && deadline.used_fraction() < options_.epsilon;
+    const std::uint64_t before = deadline.expansions();
     const bool changed = trial(deadline, explore ? ValueType::admissible : ValueType::inadmissible);
-    if (changed) continue;
+    idle = deadline.expansions() == before ? idle + 1 : 0;
+    if (changed && idle < most_idle) continue;
+    idle = 0;
     if (!explore) break;
     admissible_done = true;
     if (options_.epsilon >= 1.0) break;

@@ -21,7 +21,8 @@ class Search {
  public:
   Search(BeliefStatePtr start, const SearchOptions& options);
 
-  /// Trials until the deadline is spent or nothing changes any more. May be called again to go on.
+  /// Trials until the deadline is spent, nothing changes any more, or a thousand trials met no belief that was new. May
+  /// be called again to go on.
   void run(support::Deadline& deadline);
 
   /// Only what can be done from the start, for one-step rules.

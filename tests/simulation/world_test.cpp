@@ -225,5 +225,23 @@ TEST(Options, FinenessIsAtLeastOne) {
   EXPECT_NO_THROW(World(model(), truth, {1.0}));
 }
 
+TEST(Insertion, IsNotDoneByAContactShortOfTheSeat) {
+  Rng rng(11);
+  const action::Task& task = *model()->task;
+  action::ActionLibrary library(task);
+  int stopped = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Pose truth = task.scene().prior.sample(rng);
+    World world(model(), truth);
+    PoseVector off;
+    for (std::size_t d = 0; d < 6; ++d) off[d] = rng.uniform(-1.0, 1.0) * (d == 0 ? 1e-3 : d < 3 ? 5e-4 : 0.05);
+    const action::Action action = insertion_at(task, library, world.configuration(), truth * geometry::pose_from(off));
+    if (!world.execute(action).contact) continue;
+    ++stopped;
+    EXPECT_FALSE(world.inserted());
+  }
+  EXPECT_GT(stopped, 5);
+}
+
 }  // namespace
 }  // namespace tactus::test

@@ -232,5 +232,43 @@ TEST(Cancel, WithoutAQueryChangesNothing) {
   EXPECT_EQ(calm.statistics().expansions, cancelled.statistics().expansions);
 }
 
+/// What one belief was down to is not what another has to beat.
+TEST(Progress, IsOfOneBeliefAlone) {
+  const PlainWorld world(*task(), task()->scene().prior.central_pose());
+  const auto m = model(Kind::particles);
+  Planner used(m, within(10)), fresh(m, within(10));
+  action::ActionLibrary library(*task());
+  Belief narrow(m, task()->scene().start);
+  const action::Action in =
+      insertion_at(*task(), library, narrow.configuration(), task()->scene().prior.central_pose());
+  narrow.step(in, world.execute(in));
+  narrow.set_configuration(task()->scene().start);
+  used.query(narrow);
+  Rng rng(8);
+  for (Planner* planner : {&used, &fresh}) {
+    int small = 0;
+    for (int episode = 0; episode < 6; ++episode) {
+      const PlainWorld hidden(*task(), task()->scene().prior.sample(rng));
+      Belief belief(m, task()->scene().start);
+      for (int i = 0; i < 6; ++i) {
+        const Answer answer = planner->query(belief);
+        if (!answer.action) break;
+        small += answer.action->kind == action::Kind::move || answer.action->kind == action::Kind::turn;
+        belief.step(*answer.action, hidden.execute(*answer.action));
+      }
+    }
+    EXPECT_GT(small, 3) << (planner == &used ? "used" : "fresh");
+  }
+}
+
+/// Asked again before anything was done, a planner does not take its own answer for one that led nowhere.
+TEST(Progress, IsNotLostByAskingAgain) {
+  const Belief belief(model(Kind::particles), task()->scene().start);
+  Planner planner(model(Kind::particles), within(10));
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(planner.query(belief).kind, Answer::Kind::action);
+  const Answer last = planner.query(belief), again = planner.query(belief);
+  ASSERT_TRUE(last.action && again.action);
+}
+
 }  // namespace
 }  // namespace tactus::test

@@ -279,5 +279,30 @@ TEST(Heuristics, NeverExceedTheMeanCostOfInsertingAtEachPose) {
   });
 }
 
+/// The seat that counts is the nearest within tolerance, not the exact one.
+TEST(Heuristics, AdmissibleIsAtMostTheCostOfAnAttemptThatSeatsEveryPose) {
+  Rng rng(3);
+  std::vector<Pose> poses;
+  for (int i = 0; i < 30; ++i) {
+    PoseVector v = task()->scene().prior.centre;
+    v[1] += rng.uniform(-1.5e-4, 1.5e-4), v[2] += rng.uniform(-1.5e-4, 1.5e-4), v[3] += rng.uniform(-0.012, 0.012);
+    poses.push_back(geometry::pose_from(v));
+  }
+  auto problem = std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()), poses,
+                                                       5.0, 0.035);
+  int attempts = 0;
+  JointVector q = task()->scene().start;
+  for (int round = 0; round < 2; ++round) {
+    const auto state = problem->start(q);
+    for (const solver::Choice& choice : state->choices()) {
+      if (!std::all_of(choice.outcomes.begin(), choice.outcomes.end(), [](const auto& o) { return o.goal; })) continue;
+      ++attempts;
+      EXPECT_LE(state->heuristic()[0], choice.expected_cost());
+      q = choice.motion->path.front();
+    }
+  }
+  EXPECT_GT(attempts, 0);
+}
+
 }  // namespace
 }  // namespace tactus::test

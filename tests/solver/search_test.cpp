@@ -263,5 +263,15 @@ TEST(Search, AConvergedPolicyLeadsToTheGoalByLikeliestOutcomes) {
   }
 }
 
+TEST(Search, EndsWhereNoGoalCanBeReached) {
+  auto toy = std::make_shared<Toy>();
+  toy->moves = {{{{1.0, 0.1, 1}}}, {{{1.0, 0.1, 0}}}};
+  toy->heuristic.assign(2, Values{});
+  Search search(std::make_shared<ToyState>(toy, 0), {1.0, 8});
+  Deadline deadline = expansions(1000);
+  search.run(deadline);
+  EXPECT_EQ(deadline.expansions(), 2u);
+}
+
 }  // namespace
 }  // namespace tactus::test
