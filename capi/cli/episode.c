@@ -33,6 +33,7 @@ static tactus_status measure(episode* e) {
   r->cost_m = costs->metre * r->travel_m + costs->radian * r->rotation_rad + costs->action * r->actions;
   r->planner_calls = e->statistics.total_calls;
   r->planning_s = e->statistics.total_seconds;
+  r->expansions = e->statistics.total_expansions;
   const bool poses = e->summary.phase == TACTUS_PHASE_POSES;
   if (poses && isnan(r->phase1_cost_m) && e->setup->belief.kind == TACTUS_BELIEF_HIERARCHICAL)
     r->phase1_cost_m = r->cost_m;

@@ -21,6 +21,7 @@ run_summary summarise(const run_result* run) {
     sum.contacts += share * trial->contacts;
     sum.planner_calls += share * (double)trial->planner_calls;
     sum.planning_s += share * trial->planning_s;
+    sum.expansions += share * (double)trial->expansions;
   }
   return sum;
 }
@@ -37,6 +38,7 @@ static void print_trial(FILE* out, const trial_result* trial) {
   json_number_field(out, "contacts", trial->contacts, json_full);
   json_number_field(out, "planner_calls", (double)trial->planner_calls, json_full);
   json_number_field(out, "planning_s", trial->planning_s, json_full);
+  json_number_field(out, "expansions", (double)trial->expansions, json_full);
   json_number_field(out, "phase1_cost_m", trial->phase1_cost_m, json_full);
   json_number_field(out, "position_error_m", trial->position_error_m, json_full);
   json_number_field(out, "angle_error_rad", trial->angle_error_rad, json_full);
@@ -54,6 +56,7 @@ static void print_summary(FILE* out, const run_result* run) {
   json_number_field(out, "mean_contacts", mean.contacts, json_full);
   json_number_field(out, "mean_planner_calls", mean.planner_calls, json_full);
   json_number_field(out, "mean_planning_s", mean.planning_s, json_full);
+  json_number_field(out, "mean_expansions", mean.expansions, json_full);
   fputs("}\n", out);
 }
 

@@ -19,6 +19,7 @@ typedef struct {
   int contacts;
   uint64_t planner_calls;  /* queries that planned */
   double planning_s;       /* what these took */
+  uint64_t expansions;     /* beliefs expanded in them */
   double phase1_cost_m;    /* the cost at which poses took over from voxels */
   double position_error_m; /* of the belief's mean */
   double angle_error_rad;
@@ -38,7 +39,7 @@ typedef struct {
 typedef struct {
   int inserted;
   int truth_kept;
-  double cost_m, travel_m, rotation_rad, actions, contacts, planner_calls, planning_s;
+  double cost_m, travel_m, rotation_rad, actions, contacts, planner_calls, planning_s, expansions;
 } run_summary;
 
 run_summary summarise(const run_result* run);

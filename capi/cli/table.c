@@ -22,6 +22,8 @@ void print_table(FILE* out, const run_result* run) {
   fprintf(out, "\ninserted %d of %d, true pose kept in %d of %d\n", mean.inserted, run->count, mean.truth_kept,
           run->count);
   fprintf(out,
-          "on average: cost %.3f m, travel %.3f m, %.1f actions, %.1f contacts, %.2f s of planning in %.1f calls\n",
-          mean.cost_m, mean.travel_m, mean.actions, mean.contacts, mean.planning_s, mean.planner_calls);
+          "on average: cost %.3f m, travel %.3f m, %.1f actions, %.1f contacts, %.2f s of planning in %.1f calls, %.1f "
+          "beliefs expanded a second\n",
+          mean.cost_m, mean.travel_m, mean.actions, mean.contacts, mean.planning_s, mean.planner_calls,
+          mean.planning_s > 0.0 ? mean.expansions / mean.planning_s : 0.0);
 }

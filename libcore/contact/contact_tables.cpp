@@ -99,11 +99,11 @@ void ContactTables::decide(const Key& key, int x, int y, int size_x, int size_y,
   const double farthest = lattice_.pitch * std::hypot(std::max(middle_x - x, x + size_x - 1 - middle_x),
                                                       std::max(middle_y - y, y + size_y - 1 - middle_y));
   if (farthest == 0.0) {
-    if (contact_.reaches(tool, target_from_tool, contact_.margin())) table.fill(x, y, 1, 1);
+    if (contact_.reach(tool, target_from_tool, contact_.margin()).hit) table.fill(x, y, 1, 1);
     return;
   }
-  if (!contact_.reaches(tool, target_from_tool, contact_.margin() + farthest)) return;
-  if (contact_.reaches(tool, target_from_tool, -farthest)) return table.fill(x, y, size_x, size_y);
+  if (!contact_.reach(tool, target_from_tool, contact_.margin() + farthest).hit) return;
+  if (contact_.reach(tool, target_from_tool, -farthest).hit) return table.fill(x, y, size_x, size_y);
   if (size_x >= size_y) {
     decide(key, x, y, size_x / 2, size_y, table);
     decide(key, x + size_x / 2, y, size_x - size_x / 2, size_y, table);

@@ -70,7 +70,7 @@ bool TargetContact::piece_hit(const Piece& piece, const Pose& target_from_body, 
 
 /// Goes through the body's balls, deepest detail only where the target is near. A reach much wider than a ball takes
 /// the ball for its part of the surface, which errs to a hit, and a depth much greater gives it up, which errs to none.
-TargetContact::Reach TargetContact::reach(const Body& body, const Pose& target_from_body, double threshold) const {
+Reach TargetContact::reach(const Body& body, const Pose& target_from_body, double threshold) const {
   const bool wide = std::abs(threshold) > margin_;
   const kernel::Question question{static_cast<float>(threshold),
                                   wide ? static_cast<float>(relative_detail * std::abs(threshold)) : 0.0f,

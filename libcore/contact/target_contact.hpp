@@ -22,6 +22,12 @@ struct Nearest {
   Vector3 gradient = Vector3::Zero();  ///< of the signed distance there, in the target's frame
 };
 
+/// What one look at a body tells.
+struct Reach {
+  bool hit = false;
+  double clearance = 0.0;  ///< m: without a hit, no point of the body moved by less than this brings one
+};
+
 /// Answers the one question of the planner: at which waypoint of a motion does the robot first touch the target, were
 /// the target at this pose?
 ///
@@ -58,10 +64,10 @@ class TargetContact {
   /// Whether the robot comes within `radius` (m) of the target at a waypoint; errs as `first_within`.
   bool within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target, double radius) const;
 
-  /// Whether one body reaches the target: inflated by `threshold` if it is positive, deflated by it if it is negative
-  /// (as `first_within` and `first_certain_contact`).
-  bool reaches(std::size_t body, const Pose& target_from_body, double threshold) const {
-    return reach(bodies_->body(body), target_from_body, threshold).hit;
+  /// One look at one body: does it, inflated by `threshold` (m) if that is positive, deflated if it is negative, meet
+  /// the target? (As `first_within` and `first_certain_contact`.)
+  Reach reach(std::size_t body, const Pose& target_from_body, double threshold) const {
+    return reach(bodies_->body(body), target_from_body, threshold);
   }
 
   /// An estimate of the deepest or nearest point at a waypoint, among the corners and middles of the pieces of the
@@ -75,10 +81,6 @@ class TargetContact {
 
  private:
   struct Sides;
-  struct Reach {
-    bool hit = false;
-    double clearance = 0.0;  ///< of what is not hit, above the threshold: the body may move this far without a hit
-  };
   Reach reach(const Body& body, const Pose& target_from_body, double threshold) const;
   bool piece_hit(const Piece& piece, const Pose& target_from_body, double threshold) const;
   void look_at(const Piece& piece, const Pose& target_from_body, Nearest& best) const;

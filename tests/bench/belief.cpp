@@ -1,8 +1,101 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <iostream>
+
+#include "action/probes.hpp"
+#include "bench/shelf_lattice.hpp"
+#include "bench/timing.hpp"
 #include "bench/work.hpp"
+#include "contact/contact_tables.hpp"
+#include "scenario/scenario.hpp"
 
 namespace tactus::bench {
+namespace {
 
-std::vector<Work> belief_works() { return {}; }
+using contact::Bitset;
+using contact::FirstContacts;
+
+constexpr double seconds = 0.5;
+
+/// A byte a cell, its first contact, and a loop over the cells: what a set of particles would do.
+std::vector<std::size_t> counted(const std::vector<std::uint8_t>& first, const std::vector<std::uint8_t>& possible,
+                                 std::size_t waypoints) {
+  std::vector<std::size_t> counts(waypoints + 1);
+  for (std::size_t i = 0; i < first.size(); ++i) counts[first[i]] += possible[i];
+  return counts;
+}
+
+/// A belief of millions of cells against one motion: how many would be first touched where, and what would be left.
+std::vector<Row> split(const Options& options) {
+  const LatticeSetting setting = shelf_lattice(options.seed);
+  const contact::TargetContact contact(setting.bodies, setting.target, 0.0);
+  const contact::ContactTables tables(contact, setting.lattice);
+  const FirstContacts found = tables.first_contacts(setting.motions.front());
+  Bitset possible = setting.lattice.all();
+  for (std::size_t m = 1; m < 4; ++m) possible = tables.first_contacts(setting.motions[m]).after_none(possible);
+
+  const std::size_t none = found.waypoints();
+  std::vector<std::uint8_t> first(setting.lattice.bits(), static_cast<std::uint8_t>(none)), members(first.size());
+  for (std::size_t k = 1; k < none; ++k)
+    found.after_contact(setting.lattice.all(), k).for_each([&](std::size_t i) {
+      first[i] = static_cast<std::uint8_t>(k);
+    });
+  possible.for_each([&](std::size_t i) { members[i] = 1; });
+
+  Row row;
+  row.work = "split";
+  row.pairs = setting.lattice.cells();
+  row.n = none - 1;
+  row.compared = row.pairs;
+  std::vector<std::size_t> ours, theirs;
+  row.ours_s = thread_seconds("ours", seconds, [&] { ours = found.split(possible); });
+  row.baseline_s = thread_seconds("baseline", seconds, [&] { theirs = counted(first, members, none); });
+  row.agreeing = ours == theirs ? row.pairs : 0;
+  if (ours != theirs) row.disagreements.push_back("the counts differ");
+  row.memory_mib = resident_mib();
+  row.note = std::to_string(possible.count()) + " cells possible; baseline: a byte a cell";
+  Row successor = row;
+  successor.work = "successor";
+  Bitset left;
+  const std::size_t waypoint = none / 2;
+  successor.ours_s = thread_seconds("ours", seconds, [&] { left = found.after_contact(possible, waypoint); });
+  std::vector<std::uint8_t> kept(first.size());
+  successor.baseline_s = thread_seconds("baseline", seconds, [&] {
+    for (std::size_t i = 0; i < first.size(); ++i) kept[i] = first[i] == waypoint ? members[i] : 0;
+  });
+  std::size_t agreeing = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i) agreeing += left.test(i) == (kept[i] != 0);
+  successor.agreeing = agreeing == kept.size() ? row.pairs : agreeing;
+  successor.disagreements.clear();
+  if (agreeing != kept.size()) successor.disagreements.push_back("the successors differ");
+  return {row, successor};
+}
+
+/// One observation of a sweep that felt nothing, taken in by all cells of the shelf's prior.
+std::vector<Row> cells(const Options&) {
+  const auto shelf = scenario::load(TACTUS_SOURCE_DIR "/examples/scenarios/shelf_3d.yaml");
+  const action::Task& task = *shelf->task;
+  const action::MotionPtr motion = action::probes(task, task.frame().region, task.home(), 9)[4];
+  const belief::CellBelief all(task, {}, [](const Pose&, double) { return true; });
+  belief::Trace trace;
+  trace.path = motion->path;
+  trace.bodies = motion->bodies;
+  Row row;
+  row.work = "cells";
+  row.pairs = all.cells().size();
+  row.n = motion->path.size() - 1;
+  std::size_t left = 0;
+  row.ours_s = thread_seconds("ours", seconds, [&] {
+    belief::CellBelief belief = all;
+    belief.update(task, trace);
+    left = belief.cells().size();
+  });
+  row.memory_mib = resident_mib();
+  row.note = "a sweep of the shelf that felt nothing, cells of 1 cm and 0.1 rad; " + std::to_string(left) + " are left";
+  return {row};
+}
+
+}  // namespace
+
+std::vector<Work> belief_works() { return {{"split", split}, {"cells", cells}}; }
 
 }  // namespace tactus::bench

@@ -89,7 +89,7 @@ std::size_t plain_first(const LatticeCase& c, const LatticeMotion& motion, const
   const Pose target_from_base = c.lattice.base_from_target(target).inverse();
   std::size_t k = 1;
   while (k < motion.size() &&
-         !c.contact.reaches(0, target_from_base * c.lattice.base_from_tool(motion[k]), c.contact.margin()))
+         !c.contact.reach(0, target_from_base * c.lattice.base_from_tool(motion[k]), c.contact.margin()).hit)
     ++k;
   return k;
 }

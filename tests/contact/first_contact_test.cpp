@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "contact/contact_cases.hpp"
 
 /// The first contact of a motion is that of every pair of triangles at every waypoint.
@@ -64,6 +66,26 @@ TEST_P(FirstContactLaw, FirstWithinIsThatOfEveryPairOfTriangles) {
   EXPECT_LE(close_calls, 1);
 }
 
+/// A body that is free stays free however it is moved by less than its clearance.
+TEST_P(FirstContactLaw, NoMoveByLessThanTheClearanceTouches) {
+  const TargetContact& contact = scene().contact;
+  int free = 0;
+  for (int m = 0; m < 20; ++m) {
+    const Motion motion(scene(), random_waypoints(rng));
+    const Pose pose = m % 2 == 0 ? pose_near_touching(scene(), motion, rng) : pose_anywhere(scene(), motion, rng);
+    const Pose target_from_tool = pose.inverse() * motion.path.base_from_body(0, 0);
+    const contact::Reach reach = contact.reach(0, target_from_tool, scene().margin);
+    if (reach.hit) continue;
+    ++free;
+    for (int k = 0; k < 5; ++k) {
+      Pose moved = target_from_tool;
+      moved.translation() += std::min(reach.clearance, 1.0) * rng.uniform() * random_direction(rng);
+      EXPECT_FALSE(contact.reach(0, moved, scene().margin).hit);
+    }
+  }
+  EXPECT_GT(free, 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(, FirstContactLaw, testing::Range(0, 11),
                          [](const auto& scene) { return name_of_pairing(scene.param); });
 
@@ -88,6 +110,24 @@ TEST(TargetContact, AToolInsideAClosedBoxTouchesItAndInsideAnOpenOneDoesNot) {
       EXPECT_EQ(scene.contact.first_contact(path, pose).has_value(), !open) << size;
     }
   }
+}
+
+/// The model is const: threads that share it get what one would.
+TEST(TargetContact, AnswersManyThreadsAsOne) {
+  Rng rng(5);
+  const Scene& scene = scene_of(2);
+  const Motion motion(scene, random_waypoints(rng));
+  std::vector<Pose> poses;
+  for (int i = 0; i < 400; ++i) poses.push_back(pose_anywhere(scene, motion, rng));
+  std::vector<std::optional<std::size_t>> shared(poses.size());
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < 4; ++t)
+    threads.emplace_back([&, t] {
+      for (std::size_t i = t; i < poses.size(); i += 4) shared[i] = scene.contact.first_contact(motion.path, poses[i]);
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    EXPECT_EQ(shared[i], scene.contact.first_contact(motion.path, poses[i]));
 }
 
 }  // namespace
