@@ -57,15 +57,14 @@ TargetContact::TargetContact(std::shared_ptr<const RobotBodies> bodies, const Me
     shell_points_.push_back(shell.vertices.front());
 }
 
-/// Decides a piece that the look-ups leave undecided. For a depth (threshold < 0) its middle speaks; for a wide reach
-/// its ball, which errs to a hit; else its triangle against the target's.
+/// Decides a piece that the look-ups leave undecided: they are as good as its size, so a reach or a depth wider than
+/// that is left at them, which errs to a hit, or to none. Else its triangle, or for a depth its middle, is asked.
 bool TargetContact::piece_hit(const Piece& piece, const Pose& target_from_body, double threshold) const {
   const geometry::TriangleTree& tree = field_.tree();
-  if (threshold >= 0.0 && threshold <= std::max(margin_, piece.radius))
-    return tree.within(geometry::transformed(piece.corners, target_from_body), threshold);
+  if (std::abs(threshold) > std::max(margin_, piece.radius)) return threshold > 0.0;
+  if (threshold >= 0.0) return tree.within(geometry::transformed(piece.corners, target_from_body), threshold);
   const Vector3 centre = target_from_body * piece.centre;
-  if (threshold < 0.0) return tree.distance(centre, -threshold) >= -threshold && tree.contains(centre);
-  return tree.distance(centre, threshold + 1.01 * piece.radius) <= threshold + piece.radius;
+  return tree.distance(centre, -threshold) >= -threshold && tree.contains(centre);
 }
 
 /// Goes through the body's balls, deepest detail only where the target is near. A reach much wider than a ball takes
