@@ -65,14 +65,12 @@ void ContactTables::Table::fill(int x, int y, int size_x, int size_y) {
                                                                                                     << column % 64;
 }
 
-std::uint64_t ContactTables::Table::window(int x, int y) const {
-  x -= low[0];
-  y -= low[1];
-  if (y < 0 || y >= count[1] || x >= count[0] || x <= -64) return 0;
-  const std::uint64_t* row = words.data() + row_words() * static_cast<std::size_t>(y);
-  if (x < 0) return row[0] << -x;
+/// The bits of a row from offset x on; x > -64 and less than there are.
+std::uint64_t ContactTables::Table::window(std::size_t row, int x) const {
+  const std::uint64_t* first = words.data() + row_words() * row;
+  if (x < 0) return first[0] << -x;
   const int word = x / 64, bit = x % 64;
-  return bit == 0 ? row[word] : row[word] >> bit | row[word + 1] << (64 - bit);
+  return bit == 0 ? first[word] : first[word] >> bit | first[word + 1] << (64 - bit);
 }
 
 ContactTables::ContactTables(const TargetContact& contact, Lattice lattice, std::size_t most_bytes)
@@ -154,40 +152,73 @@ std::size_t ContactTables::bytes() const {
   return bytes_;
 }
 
-/// The tables along a motion for targets at one turn and z. Where turn and z stay the same, so does the table.
-std::vector<ContactTables::TablePtr> ContactTables::tables_along(const LatticeMotion& motion, int target_turn,
-                                                                 int z) const {
-  std::vector<TablePtr> tables(motion.size());
-  for (std::size_t k = 1; k < motion.size(); ++k)
-    tables[k] = k > 1 && motion[k].turn == motion[k - 1].turn && motion[k].at[2] == motion[k - 1].at[2]
-                    ? tables[k - 1]
-                    : table({motion[k].turn, target_turn, z - motion[k].at[2]});
-  return tables;
+/// The tables at the waypoints of a motion for targets at one turn, and at one z after the other. A look into the map
+/// for each offset in z that is met first, not for each waypoint.
+class ContactTables::Along {
+ public:
+  Along(const ContactTables& tables, const LatticeMotion& motion, int target_turn)
+      : tables_(tables), motion_(motion), target_turn_(target_turn) {
+    const auto [low, high] = std::minmax_element(
+        motion.begin(), motion.end(), [](const LatticePose& a, const LatticePose& b) { return a.at[2] < b.at[2]; });
+    lowest_ = -high->at[2];
+    offsets_ = static_cast<std::size_t>(tables.lattice_.count[2] + high->at[2] - low->at[2]);
+    met_.resize(offsets_ * tables.lattice_.tool_turns.size());
+  }
+
+  const Table& at(std::size_t waypoint, int z) {
+    const int offset = z - motion_[waypoint].at[2];
+    TablePtr& table =
+        met_[static_cast<std::size_t>(motion_[waypoint].turn) * offsets_ + static_cast<std::size_t>(offset - lowest_)];
+    if (!table) table = tables_.table({motion_[waypoint].turn, target_turn_, offset});
+    return *table;
+  }
+
+ private:
+  const ContactTables& tables_;
+  const LatticeMotion& motion_;
+  int target_turn_;
+  int lowest_ = 0;
+  std::size_t offsets_ = 0;
+  std::vector<TablePtr> met_;
+};
+
+/// Takes those cells of one turn and z that a tool at `tool` touches out of `left`.
+void ContactTables::take_touched(const Table& table, const LatticePose& tool, std::size_t first_word,
+                                 std::vector<std::uint64_t>& left, Touched& touched) const {
+  if (table.words.empty()) return;
+  const int row_words = static_cast<int>(lattice_.row_words());
+  const int low_y = tool.at[1] + table.low[1];
+  const int begin = std::max(0, low_y), end = std::min(lattice_.count[1], low_y + table.count[1]);
+  for (int w = 0; w < row_words; ++w) {
+    const int x = 64 * w - tool.at[0] - table.low[0];
+    if (x <= -64 || x >= table.count[0]) continue;
+    for (int y = begin; y < end; ++y) {
+      const auto word = static_cast<std::size_t>(y * row_words + w);
+      const std::uint64_t cells = left[word] & table.window(static_cast<std::size_t>(y - low_y), x);
+      if (cells == 0) continue;
+      touched.emplace_back(static_cast<std::uint32_t>(first_word + word), cells);
+      left[word] &= ~cells;
+    }
+  }
 }
 
 FirstContacts ContactTables::first_contacts(const LatticeMotion& motion) const {
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint64_t>>> found(motion.size());
-  const std::size_t row_words = lattice_.row_words();
-  const int in_last_word = lattice_.count[0] % 64;
-  const std::uint64_t last_word = in_last_word == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << in_last_word) - 1;
-  std::size_t row = 0;
-  for (int turn = 0; turn < static_cast<int>(lattice_.target_turns.size()); ++turn)
-    for (int z = 0; z < lattice_.count[2]; ++z) {
-      const std::vector<TablePtr> tables = tables_along(motion, turn, z);
-      for (int y = 0; y < lattice_.count[1]; ++y, ++row)
-        for (std::size_t w = 0; w < row_words; ++w) {
-          std::uint64_t left = w + 1 == row_words ? last_word : ~std::uint64_t{0};
-          for (std::size_t k = 1; k < motion.size() && left != 0; ++k) {
-            const std::uint64_t touched =
-                left & tables[k]->window(static_cast<int>(64 * w) - motion[k].at[0], y - motion[k].at[1]);
-            if (touched == 0) continue;
-            found[k].emplace_back(static_cast<std::uint32_t>(row * row_words + w), touched);
-            left &= ~touched;
-          }
-        }
+  std::vector<Touched> touched(motion.size());
+  const std::size_t row_words = lattice_.row_words(), rows = static_cast<std::size_t>(lattice_.count[1]);
+  std::vector<std::uint64_t> all(row_words * rows, ~std::uint64_t{0}), left;
+  if (const int rest = lattice_.count[0] % 64; rest != 0)
+    for (std::size_t y = 0; y < rows; ++y) all[(y + 1) * row_words - 1] = (std::uint64_t{1} << rest) - 1;
+  std::size_t first_word = 0;
+  for (int turn = 0; turn < static_cast<int>(lattice_.target_turns.size()) && motion.size() > 1; ++turn) {
+    Along tables(*this, motion, turn);
+    for (int z = 0; z < lattice_.count[2]; ++z, first_word += row_words * rows) {
+      left = all;
+      for (std::size_t k = 1; k < motion.size(); ++k)
+        take_touched(tables.at(k, z), motion[k], first_word, left, touched[k]);
     }
+  }
   FirstContacts result;
-  for (const auto& at_waypoint : found) {
+  for (const Touched& at_waypoint : touched) {
     for (const auto& [word, cells] : at_waypoint) {
       result.word_.push_back(word);
       result.cells_.push_back(cells);

@@ -28,7 +28,7 @@ class FirstContacts {
 
  private:
   friend class ContactTables;
-  std::vector<std::uint32_t> word_;   ///< by waypoint, then ascending
+  std::vector<std::uint32_t> word_;   ///< by waypoint
   std::vector<std::uint64_t> cells_;  ///< of that word
   std::vector<std::size_t> begin_{0};
 };
@@ -61,13 +61,16 @@ class ContactTables {
 
     std::size_t row_words() const { return static_cast<std::size_t>(count[0]) / 64 + 2; }
     void fill(int x, int y, int size_x, int size_y);
-    std::uint64_t window(int x, int y) const;  ///< the bits from offset (x, y) on
+    std::uint64_t window(std::size_t row, int x) const;
   };
   using TablePtr = std::shared_ptr<const Table>;
   using Key = std::array<int, 3>;  ///< turn of the tool, turn of the target, offset in z
 
   TablePtr table(const Key& key) const;
-  std::vector<TablePtr> tables_along(const LatticeMotion& motion, int target_turn, int z) const;
+  class Along;
+  using Touched = std::vector<std::pair<std::uint32_t, std::uint64_t>>;  ///< words of a set of cells, and the members
+  void take_touched(const Table& table, const LatticePose& tool, std::size_t first_word,
+                    std::vector<std::uint64_t>& left, Touched& touched) const;
   Table blank(const Key& key) const;
   Table make(const Key& key) const;
   void check(const support::ByteReader& in, const Key& key, const Table& table) const;

@@ -189,6 +189,14 @@ TEST(ContactTables, RestoredOnesAnswerAsTheSavedOnesAndOthersAreRefused) {
   EXPECT_EQ(restored.save(), bytes) << "nothing has changed after the errors";
 }
 
+TEST(ContactTables, AMotionOfNoWaypointsOrOneTouchesNothing) {
+  Rng rng(8);
+  const LatticeCase c(pairings()[0].tool, pairings()[0].target, random_lattice(rng));
+  EXPECT_EQ(c.tables.first_contacts({}).split(c.lattice.all()), std::vector<std::size_t>{c.lattice.cells()});
+  EXPECT_EQ(c.tables.first_contacts({LatticePose{}}).split(c.lattice.all()),
+            (std::vector<std::size_t>{0, c.lattice.cells()}));
+}
+
 TEST(ContactTables, KeepWithinTheirRoomAndAnswerAllTheSame) {
   Rng rng(6);
   const LatticeCase c(pairings()[0].tool, pairings()[0].target, random_lattice(rng));
