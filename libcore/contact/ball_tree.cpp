@@ -12,6 +12,13 @@ namespace {
 constexpr float rounding = 2e-7f;  // of a length stored as a float: relative, and in metres
 
 float rounded_up(double length) { return static_cast<float>(length) * (1.0f + rounding) + rounding; }
+float rounded_down(double length) { return static_cast<float>(length) * (1.0f - rounding) - rounding; }
+
+/// The signed depth of a point in the solid (m), no more than it is.
+float core(const geometry::TriangleTree& surface, const Vector3& p) {
+  const double distance = surface.distance(p);
+  return surface.contains(p) ? rounded_down(distance) : -rounded_up(distance);
+}
 
 void cut(const Corners& c, int shell, double piece_radius, std::vector<Piece>& pieces) {
   const Vector3 centre = (c[0] + c[1] + c[2]) / 3.0;
@@ -61,28 +68,31 @@ BallTree::BallTree(const Mesh& mesh, double piece_radius) {
   for (std::size_t shell = 0; shell < shells.size(); ++shell)
     for (const geometry::Triangle& t : shells[shell].triangles)
       cut(geometry::corners(shells[shell], t), static_cast<int>(shell), piece_radius, pieces_);
-  root_ = grow(0, pieces_.size());
+  root_ = grow(0, pieces_.size(), geometry::TriangleTree(mesh));
 }
 
 /// Makes the block over pieces [begin, end), and those below it; returns the link to it.
-std::int32_t BallTree::grow(std::size_t begin, std::size_t end) {
+std::int32_t BallTree::grow(std::size_t begin, std::size_t end, const geometry::TriangleTree& surface) {
   const auto self = static_cast<std::int32_t>(blocks_.size());
   kernel::Block block{};
   for (float(&half)[kernel::lanes] : block.half) std::fill_n(half, kernel::lanes, kernel::no_part);
+  std::fill_n(block.core, kernel::lanes, kernel::no_part);
   blocks_.push_back(block);
   const std::vector<Range> parts = sixteenths(pieces_, {begin, end});
   for (std::size_t lane = 0; lane < parts.size(); ++lane) {
     const auto [first, last] = parts[lane];
-    bound(first, last, block, lane);
-    block.next[lane] = last - first == 1 ? ~static_cast<std::int32_t>(first) : grow(first, last);
+    const Vector3 centre = bound(first, last, block, lane);
+    const bool single = last - first == 1;
+    block.core[lane] = single ? 0.0f : core(surface, centre);
+    block.next[lane] = single ? ~static_cast<std::int32_t>(first) : grow(first, last, surface);
   }
   blocks_[static_cast<std::size_t>(self)] = block;
   const float smallest = *std::min_element(block.radius, block.radius + parts.size());
   return kernel::link(self, TargetField::level_for(static_cast<double>(smallest)));
 }
 
-/// A ball and a box about the pieces [first, last).
-void BallTree::bound(std::size_t first, std::size_t last, kernel::Block& block, std::size_t lane) const {
+/// A ball and a box about the pieces [first, last); returns their centre.
+Vector3 BallTree::bound(std::size_t first, std::size_t last, kernel::Block& block, std::size_t lane) const {
   geometry::Box box;
   for (std::size_t i = first; i < last; ++i) box.add(geometry::bounds(pieces_[i].corners));
   Vector3 centre = last - first == 1 ? pieces_[first].centre : box.centre();
@@ -95,6 +105,7 @@ void BallTree::bound(std::size_t first, std::size_t last, kernel::Block& block, 
   for (std::size_t i = first; i < last; ++i)
     radius = std::max(radius, (pieces_[i].centre - centre).norm() + pieces_[i].radius);
   block.radius[lane] = rounded_up(radius);
+  return centre;
 }
 
 kernel::Extent extent(const geometry::Box& box) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "contact/kernel/descent.hpp"
-#include "geometry/triangle.hpp"
+#include "geometry/triangle_tree.hpp"
 
 namespace tactus::contact {
 
@@ -33,8 +33,8 @@ class BallTree {
   const std::vector<Piece>& pieces() const { return pieces_; }
 
  private:
-  std::int32_t grow(std::size_t begin, std::size_t end);
-  void bound(std::size_t first, std::size_t last, kernel::Block& block, std::size_t lane) const;
+  std::int32_t grow(std::size_t begin, std::size_t end, const geometry::TriangleTree& surface);
+  Vector3 bound(std::size_t first, std::size_t last, kernel::Block& block, std::size_t lane) const;
 
   std::vector<Piece> pieces_;
   std::vector<kernel::Block> blocks_;

@@ -12,10 +12,12 @@ namespace tactus::contact::kernel {
 inline constexpr int lanes = 16;
 
 /// Sixteen parts of a surface, each in a ball and in a box about the same centre, and each made of the parts of a
-/// further block or a single piece. A lane that holds none has a radius of `no_ball`.
+/// further block or a single piece. A lane that holds none has halves and a core of `no_part`.
 struct alignas(64) Block {
   float centre[3][lanes];    ///< m, in the body's frame
   float radius[lanes];       ///< m
+  float core[lanes];         ///< m: the body's solid holds a ball of this radius about the centre; where it is negative,
+                             ///< a point of the surface is no farther than that from the centre
   float half[3][lanes];      ///< m: half the sides of the box, along the body's axes
   std::int32_t next[lanes];  ///< of a block its `link`; of a piece the complement of its index
 };

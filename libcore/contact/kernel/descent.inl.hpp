@@ -145,12 +145,14 @@ struct Over {
 
       const Bounds at = bounds(field, next % 4, in_target);
       const std::uint32_t is_piece = V::negative(V::load_int(block.next));
-      F radius = V::load(block.radius), certain = threshold;
-      if (question.threshold < 0.0f)
+      F radius = V::load(block.radius), core = V::load(block.core);
+      if (question.threshold < 0.0f) {
         radius = V::select(is_piece, zero, radius);
-      else if (question.by_balls)
-        certain = V::select(V::less(radius, threshold), V::add(threshold, radius), threshold);
-      if ((is_piece & V::less(at.upper, certain)) != 0) return Verdict::hit;
+        core = V::min(core, zero);
+      } else if (question.by_balls) {
+        core = V::select(is_piece & V::less(radius, threshold), radius, core);
+      }
+      if (V::less(at.upper, V::add(threshold, core)) != 0) return Verdict::hit;
 
       gap = V::max(gap, V::sub(V::sub(at.lower, threshold), radius));
       const std::uint32_t open = V::less_equal(gap, zero);
