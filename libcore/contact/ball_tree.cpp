@@ -24,7 +24,7 @@ void cut(const Corners& c, int shell, double piece_radius, std::vector<Piece>& p
   const Vector3 centre = (c[0] + c[1] + c[2]) / 3.0;
   const double radius = std::max({(c[0] - centre).norm(), (c[1] - centre).norm(), (c[2] - centre).norm()});
   if (radius <= piece_radius) {
-    pieces.push_back({c, centre, radius, shell});
+    pieces.push_back({c, centre, radius, shell, facet(c)});
     return;
   }
   int longest = 0;

@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "contact/kernel/descent.hpp"
-#include "geometry/triangle_tree.hpp"
+#include "contact/facets.hpp"
 
 namespace tactus::contact {
 
@@ -19,6 +18,7 @@ struct Piece {
   Vector3 centre = Vector3::Zero();
   double radius = 0.0;  ///< m
   int shell = 0;        ///< the connected shell it belongs to
+  kernel::Facet facet{};
 };
 
 /// A surface cut into pieces, and a tree over them, sixteen to a block. Const.

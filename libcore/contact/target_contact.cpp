@@ -12,7 +12,8 @@ constexpr double relative_detail = 0.4;  // of the reach or the depth asked for
 constexpr double field_spacing = 0.001;
 constexpr double field_border = 0.01;
 constexpr std::size_t field_samples = 1'000'000;
-constexpr double box_slack = 2e-6;  // m, of boxes compared in single precision
+constexpr double facet_reach = 0.002;  // m: the radius of the largest piece that needs no tree of triangles
+constexpr double box_slack = 2e-6;  // m, of boxes and triangles compared in single precision
 
 /// The lanes of sixteen from `first` on that are in [from, to).
 std::uint32_t lanes_within(std::size_t first, std::size_t from, std::size_t to) {
@@ -50,6 +51,7 @@ TargetContact::TargetContact(std::shared_ptr<const RobotBodies> bodies, const Me
       target_(target),
       field_(target, field_spacing, field_border, field_samples),
       image_(field_),
+      facets_(field_.tree(), facet_reach + margin),
       extent_(extent(field_.tree().box())),
       kernel_(kernel),
       margin_(margin) {
@@ -59,12 +61,32 @@ TargetContact::TargetContact(std::shared_ptr<const RobotBodies> bodies, const Me
 
 /// Decides a piece that the look-ups leave undecided: they are as good as its size, so a reach or a depth wider than
 /// that is left at them, which errs to a hit, or to none. Else its triangle, or for a depth its middle, is asked.
-bool TargetContact::piece_hit(const Piece& piece, const Pose& target_from_body, double threshold) const {
+bool TargetContact::piece_hit(const Piece& piece, const Pose& target_from_body, const kernel::Placement& at,
+                              double threshold) const {
   const geometry::TriangleTree& tree = field_.tree();
   if (std::abs(threshold) > std::max(margin_, piece.radius)) return threshold > 0.0;
-  if (threshold >= 0.0) return tree.within(geometry::transformed(piece.corners, target_from_body), threshold);
+  if (threshold >= 0.0) return crosses(piece, target_from_body, at, threshold);
   const Vector3 centre = target_from_body * piece.centre;
   return tree.distance(centre, -threshold) >= -threshold && tree.contains(centre);
+}
+
+/// Whether a piece is within `reach` of the target's triangles: those beside it that no plane parts from it are
+/// measured.
+bool TargetContact::crosses(const Piece& piece, const Pose& target_from_body, const kernel::Placement& at,
+                            double reach) const {
+  const geometry::TriangleTree& tree = field_.tree();
+  if (piece.radius + reach > facets_.reach())
+    return tree.within(geometry::transformed(piece.corners, target_from_body), reach);
+  const Facets::Near beside = facets_.near(target_from_body * piece.centre);
+  for (std::size_t k = 0; k < beside.blocks.size(); ++k) {
+    std::uint32_t near =
+        kernel_.facets_near(piece.facet, at, beside.blocks[k], static_cast<float>(reach + box_slack));
+    for (; near != 0; near &= near - 1)
+      if (tree.within(geometry::transformed(piece.corners, target_from_body),
+                      beside.faces[k * kernel::lanes + static_cast<std::size_t>(std::countr_zero(near))], reach))
+        return true;
+  }
+  return false;
 }
 
 /// Goes through the body's balls, deepest detail only where the target is near. A reach much wider than a ball takes
@@ -84,7 +106,7 @@ Reach TargetContact::reach(const Body& body, const Pose& target_from_body, doubl
     if (kernel_.walk(body.balls().blocks().data(), image_.view(), at, question, walk) == kernel::Verdict::hit)
       return {true, 0.0};
     for (int i = 0; i < walk.piece_count; ++i)
-      if (piece_hit(body.balls().pieces()[walk.pieces[i]], target_from_body, threshold)) return {true, 0.0};
+      if (piece_hit(body.balls().pieces()[walk.pieces[i]], target_from_body, at, threshold)) return {true, 0.0};
     pieces_free = pieces_free || walk.piece_count > 0;
     if (threshold >= 0.0 && !all_outside()) sides.ask(body, walk);
   } while (walk.depth > 0);

@@ -82,7 +82,8 @@ class TargetContact {
  private:
   struct Sides;
   Reach reach(const Body& body, const Pose& target_from_body, double threshold) const;
-  bool piece_hit(const Piece& piece, const Pose& target_from_body, double threshold) const;
+  bool piece_hit(const Piece& piece, const Pose& target_from_body, const kernel::Placement& at, double threshold) const;
+  bool crosses(const Piece& piece, const Pose& target_from_body, const kernel::Placement& at, double reach) const;
   void look_at(const Piece& piece, const Pose& target_from_body, Nearest& best) const;
   void nearest(const Body& body, const Pose& target_from_body, Nearest& best) const;
   bool target_inside(const Body& body, const Pose& target_from_body) const;
@@ -97,6 +98,7 @@ class TargetContact {
   Mesh target_;
   geometry::DistanceField field_;
   TargetField image_;
+  Facets facets_;
   kernel::Extent extent_;
   const kernel::Kernel& kernel_;
   double margin_;

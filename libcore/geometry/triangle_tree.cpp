@@ -107,12 +107,29 @@ bool TriangleTree::within(const Corners& triangle, double reach) const {
       continue;
     }
     for (int i = node.first; i < node.first + node.count; ++i)
-      if (bounds(faces_[i].corners).overlaps(near) && !a_plane_parts(faces_[i].corners, triangle, reach) &&
-          !a_plane_parts(triangle, faces_[i].corners, reach) &&
-          geometry::distance(faces_[i].corners, triangle) <= reach)
-        return true;
+      if (bounds(faces_[i].corners).overlaps(near) && within(triangle, i, reach)) return true;
   }
   return false;
+}
+
+bool TriangleTree::within(const Corners& triangle, int face, double reach) const {
+  const Corners& other = faces_[face].corners;
+  return !a_plane_parts(other, triangle, reach) && !a_plane_parts(triangle, other, reach) &&
+         geometry::distance(other, triangle) <= reach;
+}
+
+std::vector<int> TriangleTree::faces_near(const Vector3& p, double reach) const {
+  std::vector<int> found, stack{0};
+  while (!stack.empty()) {
+    const Node& node = nodes_[stack.back()];
+    stack.pop_back();
+    if (node.box.distance(p) > reach) continue;
+    if (node.count == 0) stack.insert(stack.end(), {node.first + 1, node.first});
+    for (int i = node.first; i < node.first + node.count; ++i)
+      if ((closest_point(faces_[i].corners, p) - p).norm() <= reach) found.push_back(i);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 int TriangleTree::winding(const Vector3& p, const Vector3& direction) const {

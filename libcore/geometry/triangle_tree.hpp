@@ -19,6 +19,14 @@ class TriangleTree {
   /// Whether a triangle is no farther than `reach` metres from the surface, crosses or touches it.
   bool within(const Corners& triangle, double reach) const;
 
+  /// The triangles no farther than `reach` metres from `p`, in rising order.
+  std::vector<int> faces_near(const Vector3& p, double reach) const;
+
+  /// Whether a triangle is no farther than `reach` metres from one of the surface's, crosses or touches it.
+  bool within(const Corners& triangle, int face, double reach) const;
+
+  const Corners& face(int index) const { return faces_[static_cast<std::size_t>(index)].corners; }
+
   /// Whether `p` lies inside one of the closed shells (nested or overlapping ones are united). Open shells contain
   /// nothing.
   bool contains(const Vector3& p) const;

@@ -77,6 +77,6 @@ struct Avx2 {
 }  // namespace
 
 const Kernel avx2{"avx2", [] { return __builtin_cpu_supports("avx2") != 0; }, Over<Avx2>::walk, Over<Avx2>::measure,
-                  Over<Avx2>::near};
+                  Over<Avx2>::near, Over<Avx2>::facets_near};
 
 }  // namespace tactus::contact::kernel

@@ -39,6 +39,6 @@ struct Avx512 {
 }  // namespace
 
 const Kernel avx512{"avx512", [] { return __builtin_cpu_supports("avx512f") != 0; }, Over<Avx512>::walk,
-                    Over<Avx512>::measure, Over<Avx512>::near};
+                    Over<Avx512>::measure, Over<Avx512>::near, Over<Avx512>::facets_near};
 
 }  // namespace tactus::contact::kernel

@@ -95,6 +95,22 @@ struct Extent {
   float centre[3], half[3];  ///< m
 };
 
+/// A triangle and planes that it does not reach beyond: its own, of which both sides count, and those that stand on its
+/// edges. A plane is a unit normal and its offset in metres; one of zeros parts nothing.
+struct Facet {
+  static constexpr int planes = 4;
+
+  float corner[3][3];
+  float plane[planes][4];
+};
+
+/// Sixteen facets. A lane that holds none has a first plane that all lies beyond.
+struct alignas(64) FacetBlock {
+  float corner[3][3][lanes];
+  float plane[Facet::planes][4][lanes];
+};
+inline constexpr float beyond_all = -1e30f;  ///< the offset of such a plane
+
 struct Kernel {
   const char* name;
 
@@ -113,6 +129,10 @@ struct Kernel {
   /// normals.
   std::uint32_t (*near)(const PoseBlock& base_from_body, const Extent& body, const Placement& target_from_base,
                         const Extent& target, float reach);
+
+  /// By lane whether a facet of the target may be within `reach` m of a body's: not if a plane of either parts them.
+  std::uint32_t (*facets_near)(const Facet& facet, const Placement& target_from_body, const FacetBlock& target,
+                               float reach);
 };
 
 extern const Kernel portable;

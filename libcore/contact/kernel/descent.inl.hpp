@@ -214,6 +214,60 @@ struct Over {
     }
     return result;
   }
+
+  static Facet placed(const Placement& p, const Facet& facet) {
+    Facet result;
+    const auto turned = [&p](const float* v, int row) {
+      const float* r = p.rotation + 3 * row;
+      return r[0] * v[0] + r[1] * v[1] + r[2] * v[2];
+    };
+    for (int row = 0; row < 3; ++row) {
+      for (int k = 0; k < 3; ++k) result.corner[k][row] = turned(facet.corner[k], row) + p.translation[row];
+      for (int k = 0; k < Facet::planes; ++k) result.plane[k][row] = turned(facet.plane[k], row);
+    }
+    for (int k = 0; k < Facet::planes; ++k) {
+      const float* n = result.plane[k];
+      result.plane[k][3] = facet.plane[k][3] + n[0] * p.translation[0] + n[1] * p.translation[1] + n[2] * p.translation[2];
+    }
+    return result;
+  }
+
+  struct Span {
+    F low, high;
+  };
+
+  /// How far the corners of triangles are beyond a plane each, at the least and at the most.
+  static Span beyond(const F (&plane)[4], const F (&corner)[3][3]) {
+    F at[3];
+    for (int k = 0; k < 3; ++k)
+      at[k] = V::sub(V::add(V::add(V::mul(plane[0], corner[k][0]), V::mul(plane[1], corner[k][1])),
+                            V::mul(plane[2], corner[k][2])),
+                     plane[3]);
+    return {V::min(V::min(at[0], at[1]), at[2]), V::max(V::max(at[0], at[1]), at[2])};
+  }
+
+  static std::uint32_t facets_near(const Facet& facet, const Placement& placement, const FacetBlock& target,
+                                   float reach) {
+    const Facet ours = placed(placement, facet);
+    F our_corner[3][3], corner[3][3];
+    for (int k = 0; k < 3; ++k)
+      for (int d = 0; d < 3; ++d) {
+        our_corner[k][d] = V::set(ours.corner[k][d]);
+        corner[k][d] = V::load(target.corner[k][d]);
+      }
+    const F most = V::set(reach), least = V::set(-reach);
+    std::uint32_t near = 0xffffu;
+    for (int k = 0; k < Facet::planes && near != 0; ++k) {
+      const F plane[4] = {V::load(target.plane[k][0]), V::load(target.plane[k][1]), V::load(target.plane[k][2]),
+                          V::load(target.plane[k][3])};
+      const float* p = ours.plane[k];
+      const F our_plane[4] = {V::set(p[0]), V::set(p[1]), V::set(p[2]), V::set(p[3])};
+      const Span us = beyond(plane, our_corner), them = beyond(our_plane, corner);
+      near &= V::less_equal(us.low, most) & V::less_equal(them.low, most);
+      if (k == 0) near &= V::less_equal(least, us.high) & V::less_equal(least, them.high);
+    }
+    return near;
+  }
 };
 
 }  // namespace tactus::contact::kernel

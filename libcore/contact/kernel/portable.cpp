@@ -103,6 +103,6 @@ struct Portable {
 }  // namespace
 
 const Kernel portable{"portable", [] { return true; }, Over<Portable>::walk, Over<Portable>::measure,
-                      Over<Portable>::near};
+                      Over<Portable>::near, Over<Portable>::facets_near};
 
 }  // namespace tactus::contact::kernel

@@ -110,6 +110,6 @@ struct Sse41 {
 }  // namespace
 
 const Kernel sse41{"sse41", [] { return __builtin_cpu_supports("sse4.1") != 0; }, Over<Sse41>::walk,
-                   Over<Sse41>::measure, Over<Sse41>::near};
+                   Over<Sse41>::measure, Over<Sse41>::near, Over<Sse41>::facets_near};
 
 }  // namespace tactus::contact::kernel
