@@ -179,30 +179,24 @@ struct Over {
   static std::uint32_t near(const PoseBlock& body_pose, const Extent& body, const Placement& target_from_base,
                             const Extent& target, float reach) {
     F rotation[9], centre[3];
+    std::uint32_t result = 0xffffu;
     for (int row = 0; row < 3; ++row) {
       const float* r = target_from_base.rotation + 3 * row;
       const F a = V::set(r[0]), b = V::set(r[1]), c = V::set(r[2]);
-      const auto product = [&](const F& x, const F& y, const F& z) {
-        return V::add(V::add(V::mul(a, x), V::mul(b, y)), V::mul(c, z));
+      const auto product = [&](const float(&x)[lanes], const float(&y)[lanes], const float(&z)[lanes]) {
+        return V::add(V::add(V::mul(a, V::load(x)), V::mul(b, V::load(y))), V::mul(c, V::load(z)));
       };
-      for (int column = 0; column < 3; ++column)
-        rotation[3 * row + column] =
-            product(V::load(body_pose.rotation[column]), V::load(body_pose.rotation[3 + column]),
-                    V::load(body_pose.rotation[6 + column]));
-      centre[row] = V::add(product(V::load(body_pose.translation[0]), V::load(body_pose.translation[1]),
-                                   V::load(body_pose.translation[2])),
-                           V::set(target_from_base.translation[row] - target.centre[row]));
-    }
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column)
-        centre[row] = V::add(centre[row], V::mul(rotation[3 * row + column], V::set(body.centre[column])));
-
-    std::uint32_t result = 0xffffu;
-    for (int row = 0; row < 3; ++row) {
       F wide = V::set(target.half[row] + reach);
-      for (int column = 0; column < 3; ++column)
-        wide = V::add(wide, V::mul(magnitude(rotation[3 * row + column]), V::set(body.half[column])));
+      centre[row] = V::add(product(body_pose.translation[0], body_pose.translation[1], body_pose.translation[2]),
+                           V::set(target_from_base.translation[row] - target.centre[row]));
+      for (int column = 0; column < 3; ++column) {
+        F& entry = rotation[3 * row + column];
+        entry = product(body_pose.rotation[column], body_pose.rotation[3 + column], body_pose.rotation[6 + column]);
+        centre[row] = V::add(centre[row], V::mul(entry, V::set(body.centre[column])));
+        wide = V::add(wide, V::mul(magnitude(entry), V::set(body.half[column])));
+      }
       result &= V::less_equal(magnitude(centre[row]), wide);
+      if (result == 0) return 0;
     }
     for (int column = 0; column < 3; ++column) {
       F wide = V::set(body.half[column] + reach), along = V::set(0.0f);
