@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace tactus::contact {
 namespace {
@@ -11,9 +12,9 @@ using geometry::Box;
 using geometry::Corners;
 using geometry::Vector3;
 
-constexpr double finest_spacing = 0.003;     // m
+constexpr double finest_spacing = 0.003;  // m
 constexpr double most_cells = 200'000;
-constexpr double least_height = 1e-4;       // of a triangle, relative to its longest side, for it to have planes
+constexpr double least_height = 1e-4;  // of a triangle, relative to its longest side, for it to have planes
 
 void set_plane(const Vector3& normal, const Corners& c, float (&plane)[4]) {
   for (int d = 0; d < 3; ++d) plane[d] = static_cast<float>(normal[d]);
@@ -41,7 +42,7 @@ kernel::Facet facet(const Corners& c) {
   return result;
 }
 
-Facets::Facets(const geometry::TriangleTree& surface, double reach) : surface_(surface), reach_(reach) {
+Facets::Facets(const geometry::TriangleTree& surface, double reach) : reach_(reach) {
   const Box box = surface.box().inflated(reach);
   double spacing = finest_spacing;
   while ((box.size() / spacing).array().ceil().prod() > most_cells) spacing *= 1.1;
@@ -49,31 +50,30 @@ Facets::Facets(const geometry::TriangleTree& surface, double reach) : surface_(s
   origin_ = box.low;
   for (int d = 0; d < 3; ++d) count_[d] = static_cast<int>(std::ceil(box.size()[d] / spacing));
   const double reach_of_cell = reach + 0.5001 * std::sqrt(3.0) * spacing;
+  std::map<std::vector<int>, List> lists;
   for (int z = 0; z < count_[2]; ++z)
     for (int y = 0; y < count_[1]; ++y)
-      for (int x = 0; x < count_[0]; ++x)
-        cells_.push_back(
-            list(surface.faces_near(origin_ + spacing * Vector3(x + 0.5, y + 0.5, z + 0.5), reach_of_cell)));
+      for (int x = 0; x < count_[0]; ++x) {
+        const Vector3 middle = origin_ + spacing * Vector3(x + 0.5, y + 0.5, z + 0.5);
+        const auto [at, is_new] = lists.try_emplace(surface.faces_near(middle, reach_of_cell));
+        if (is_new) at->second = append(surface, at->first);
+        cells_.push_back(at->second);
+      }
 }
 
-Facets::List Facets::list(const std::vector<int>& faces) {
-  const auto [at, is_new] = made_.try_emplace(faces);
-  if (!is_new) return at->second;
-  List& made = at->second;
-  made.first = static_cast<int>(blocks_.size());
-  made.count = static_cast<int>((faces.size() + kernel::lanes - 1) / kernel::lanes);
-  blocks_.resize(blocks_.size() + static_cast<std::size_t>(made.count));
+Facets::List Facets::append(const geometry::TriangleTree& surface, const std::vector<int>& faces) {
+  const std::size_t first = blocks_.size(), count = (faces.size() + kernel::lanes - 1) / kernel::lanes;
+  blocks_.resize(first + count);
   faces_.resize(blocks_.size() * kernel::lanes, -1);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(made.count) * kernel::lanes; ++i) {
-    kernel::FacetBlock& block = blocks_[static_cast<std::size_t>(made.first) + i / kernel::lanes];
-    if (i < faces.size()) {
-      copy(facet(surface_.face(faces[i])), block, i % kernel::lanes);
-      faces_[static_cast<std::size_t>(made.first) * kernel::lanes + i] = faces[i];
-    } else {
+  std::copy(faces.begin(), faces.end(), faces_.begin() + static_cast<std::ptrdiff_t>(first * kernel::lanes));
+  for (std::size_t i = 0; i < count * kernel::lanes; ++i) {
+    kernel::FacetBlock& block = blocks_[first + i / kernel::lanes];
+    if (i < faces.size())
+      copy(facet(surface.face(faces[i])), block, i % kernel::lanes);
+    else
       block.plane[0][3][i % kernel::lanes] = kernel::beyond_all;
-    }
   }
-  return made;
+  return {static_cast<int>(first), static_cast<int>(count)};
 }
 
 Facets::Near Facets::near(const Vector3& p) const {
