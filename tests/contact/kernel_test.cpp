@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "contact/contact_cases.hpp"
@@ -32,6 +33,7 @@ class KernelLaw : public testing::TestWithParam<const kernel::Kernel*> {
   geometry::DistanceField distance{pairings()[1].target.mesh(), 0.001, 0.01};
   contact::TargetField field{distance};
   contact::BallTree tree{pairings()[2].tool.mesh(), 0.003};
+  contact::Facets facets{distance.tree(), 0.004};
 };
 
 TEST_P(KernelLaw, BoundsHoldAndAreThePortableOnes) {
@@ -108,6 +110,78 @@ TEST_P(KernelLaw, WhatIsNotNearIsFartherThanTheReach) {
     }
   }
   EXPECT_GT(far, 500);
+}
+
+/// The planes that part sixteen facets from one are those of the portable kernel, and part none that is within reach.
+TEST_P(KernelLaw, FacetsThatAPlanePartsAreFartherThanTheReach) {
+  int parted = 0, close = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Pose pose = random_pose(rng, 0.05);
+    const contact::Piece& piece = tree.pieces()[rng.below(tree.pieces().size())];
+    const Vector3 centre = pose * piece.centre;
+    const double reach = rng.below(2) == 0 ? 0.0 : rng.uniform(0.0, 0.003);
+    const geometry::Corners corners = geometry::transformed(piece.corners, pose);
+    const contact::Facets::Near beside = facets.near(centre);
+    for (std::size_t k = 0; k < beside.blocks.size(); ++k) {
+      const auto ask = [&](const kernel::Kernel& asked) {
+        return asked.facets_near(piece.facet, contact::placement(pose), beside.blocks[k],
+                                 static_cast<float>(reach + 2e-6));
+      };
+      const std::uint32_t near = ask(kernel());
+      ASSERT_EQ(near, ask(kernel::portable));
+      for (std::size_t lane = 0; lane < kernel::lanes; ++lane) {
+        const int face = beside.faces[k * kernel::lanes + lane];
+        const bool stays = (near >> lane & 1u) != 0;
+        if (face < 0) {
+          EXPECT_FALSE(stays);
+          continue;
+        }
+        const bool within = distance.tree().within(corners, face, reach);
+        EXPECT_TRUE(stays || !within);
+        parted += !stays;
+        close += within;
+      }
+    }
+  }
+  EXPECT_GT(parted, 1000);
+  EXPECT_GT(close, 50);
+}
+
+/// The lists of a point hold every triangle within the reach.
+TEST(Facets, TheListOfAPointHoldsEveryTriangleWithinReach) {
+  Rng rng(11);
+  const geometry::TriangleTree tree(pairings()[1].target.mesh());
+  const contact::Facets facets(tree, 0.004);
+  int found = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const geometry::Box box = tree.box().inflated(0.01);
+    const Vector3 p =
+        box.low + Vector3(rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0, 1)).cwiseProduct(box.size());
+    const contact::Facets::Near near = facets.near(p);
+    const std::vector<int> listed(near.faces, near.faces + near.blocks.size() * kernel::lanes);
+    for (const int face : tree.faces_near(p, facets.reach())) {
+      ++found;
+      EXPECT_EQ(std::count(listed.begin(), listed.end(), face), 1);
+    }
+  }
+  EXPECT_GT(found, 100);
+}
+
+/// A block's parts hold the balls that their cores say.
+TEST(BallTree, ACoreIsADepthInTheSolidOrADistanceToTheSurface) {
+  const Mesh mesh = pairings()[2].tool.mesh();
+  const contact::BallTree tree(mesh, 0.003);
+  const geometry::TriangleTree surface(mesh);
+  for (const kernel::Block& block : tree.blocks())
+    for (int lane = 0; lane < kernel::lanes; ++lane) {
+      if (block.half[0][lane] == kernel::no_part) {
+        EXPECT_EQ(block.core[lane], kernel::no_part);
+        continue;
+      }
+      const Vector3 centre(block.centre[0][lane], block.centre[1][lane], block.centre[2][lane]);
+      const double depth = surface.distance(centre) * (surface.contains(centre) ? 1.0 : -1.0);
+      EXPECT_LE(block.core[lane], depth + (block.next[lane] < 0 ? 1e-7 : 0.0));
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(, KernelLaw, testing::ValuesIn(supported_kernels()),
