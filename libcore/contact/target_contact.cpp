@@ -13,7 +13,7 @@ constexpr double field_spacing = 0.001;
 constexpr double field_border = 0.01;
 constexpr std::size_t field_samples = 1'000'000;
 constexpr double facet_reach = 0.002;  // m: the radius of the largest piece that needs no tree of triangles
-constexpr double box_slack = 2e-6;  // m, of boxes and triangles compared in single precision
+constexpr double box_slack = 2e-6;     // m, of boxes and triangles compared in single precision
 
 /// The lanes of sixteen from `first` on that are in [from, to).
 std::uint32_t lanes_within(std::size_t first, std::size_t from, std::size_t to) {
@@ -96,8 +96,7 @@ bool TargetContact::crosses(const Piece& piece, const Pose& target_from_body, co
     return tree.within(geometry::transformed(piece.corners, target_from_body), reach);
   const Facets::Near beside = facets_.near(target_from_body * piece.centre);
   for (std::size_t k = 0; k < beside.blocks.size(); ++k) {
-    std::uint32_t near =
-        kernel_.facets_near(piece.facet, at, beside.blocks[k], static_cast<float>(reach + box_slack));
+    std::uint32_t near = kernel_.facets_near(piece.facet, at, beside.blocks[k], static_cast<float>(reach + box_slack));
     for (; near != 0; near &= near - 1)
       if (tree.within(geometry::transformed(piece.corners, target_from_body),
                       beside.faces[k * kernel::lanes + static_cast<std::size_t>(std::countr_zero(near))], reach))

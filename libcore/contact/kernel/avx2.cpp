@@ -30,6 +30,8 @@ struct Avx2 {
   static F mul(const F& a, const F& b) { return {_mm256_mul_ps(a.low, b.low), _mm256_mul_ps(a.high, b.high)}; }
   static F min(const F& a, const F& b) { return {_mm256_min_ps(a.low, b.low), _mm256_min_ps(a.high, b.high)}; }
   static F max(const F& a, const F& b) { return {_mm256_max_ps(a.low, b.low), _mm256_max_ps(a.high, b.high)}; }
+  static __m256 magnitude(__m256 a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
+  static F magnitude(const F& a) { return {magnitude(a.low), magnitude(a.high)}; }
   static F sqrt(const F& a) { return {_mm256_sqrt_ps(a.low), _mm256_sqrt_ps(a.high)}; }
   static F floor(const F& a) { return {_mm256_floor_ps(a.low), _mm256_floor_ps(a.high)}; }
   static std::uint32_t less(const F& a, const F& b) {
@@ -76,7 +78,8 @@ struct Avx2 {
 
 }  // namespace
 
-const Kernel avx2{"avx2", [] { return __builtin_cpu_supports("avx2") != 0; }, Over<Avx2>::walk, Over<Avx2>::measure,
+const Kernel avx2{"avx2",           [] { return __builtin_cpu_supports("avx2") != 0; },
+                  Over<Avx2>::walk, Over<Avx2>::measure,
                   Over<Avx2>::near, Over<Avx2>::facets_near};
 
 }  // namespace tactus::contact::kernel

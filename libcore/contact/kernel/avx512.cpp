@@ -18,6 +18,7 @@ struct Avx512 {
   static F mul(F a, F b) { return _mm512_mul_ps(a, b); }
   static F min(F a, F b) { return _mm512_min_ps(a, b); }
   static F max(F a, F b) { return _mm512_max_ps(a, b); }
+  static F magnitude(F a) { return _mm512_abs_ps(a); }
   static F sqrt(F a) { return _mm512_sqrt_ps(a); }
   static F floor(F a) { return _mm512_roundscale_ps(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC); }
   static std::uint32_t less(F a, F b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
@@ -38,7 +39,8 @@ struct Avx512 {
 
 }  // namespace
 
-const Kernel avx512{"avx512", [] { return __builtin_cpu_supports("avx512f") != 0; }, Over<Avx512>::walk,
-                    Over<Avx512>::measure, Over<Avx512>::near, Over<Avx512>::facets_near};
+const Kernel avx512{"avx512",           [] { return __builtin_cpu_supports("avx512f") != 0; },
+                    Over<Avx512>::walk, Over<Avx512>::measure,
+                    Over<Avx512>::near, Over<Avx512>::facets_near};
 
 }  // namespace tactus::contact::kernel

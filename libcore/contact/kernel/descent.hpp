@@ -14,11 +14,11 @@ inline constexpr int lanes = 16;
 /// Sixteen parts of a surface, each in a ball and in a box about the same centre, and each made of the parts of a
 /// further block or a single piece. A lane that holds none has halves and a core of `no_part`.
 struct alignas(64) Block {
-  float centre[3][lanes];    ///< m, in the body's frame
-  float radius[lanes];       ///< m
-  float core[lanes];         ///< m: the body's solid holds a ball of this radius about the centre; where it is negative,
-                             ///< a point of the surface is no farther than that from the centre
-  float half[3][lanes];      ///< m: half the sides of the box, along the body's axes
+  float centre[3][lanes];  ///< m, in the body's frame
+  float radius[lanes];     ///< m
+  float core[lanes];       ///< m: the body's solid holds a ball of this radius about the centre; where it is negative,
+                           ///< a point of the surface is no farther than that from the centre
+  float half[3][lanes];    ///< m: half the sides of the box, along the body's axes
   std::int32_t next[lanes];  ///< of a block its `link`; of a piece the complement of its index
 };
 inline constexpr float no_part = -1e30f;
@@ -68,7 +68,7 @@ enum class Verdict : std::int32_t { free, hit, undecided };
 /// walk then goes on when called again.
 struct Walk {
   static constexpr int most_pieces = 64;
-  static constexpr int most_blocks = 256;  ///< for trees of 17 levels
+  static constexpr int most_blocks = 256;  ///< for trees of 9 levels, two blocks looked at together
 
   std::int32_t stack[most_blocks];
   std::int32_t depth;

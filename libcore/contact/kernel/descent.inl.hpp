@@ -11,6 +11,9 @@ struct Over {
   using F = typename V::F;
   using I = typename V::I;
 
+  /// Of the squared distance to the nearest sample, in spacings: on the lattice it is at most 3/4.
+  static constexpr float off_lattice = 0.7501f;
+
   struct Bounds {
     F lower, upper;
   };
@@ -19,7 +22,6 @@ struct Over {
     F v[3];
   };
 
-  static F magnitude(F a) { return V::max(a, V::sub(V::set(0.0f), a)); }
   static float magnitude(float a) { return a < 0.0f ? -a : a; }
 
   static Points centres(const Block& block) {
@@ -39,20 +41,19 @@ struct Over {
   /// Sixteen points against the samples nearest to them: the distance is 1-Lipschitz.
   static Bounds bounds(const Field& field, int level, const Points& p) {
     const Lattice& lattice = field.lattices[level];
-    F squared = V::set(0.0f), off_lattice = V::set(0.0f);
+    F squared = V::set(0.0f);
     I index = V::set_int(0);
     for (int d = 0; d < 3; ++d) {
       const F scaled = V::mul(V::sub(p.v[d], V::set(lattice.origin[d])), V::set(lattice.inverse_spacing));
       const F nearest = V::min(V::max(V::floor(V::add(scaled, V::set(0.5f))), V::set(0.0f)), V::set(lattice.last[d]));
       const F offset = V::sub(scaled, nearest);
       squared = V::add(squared, V::mul(offset, offset));
-      off_lattice = V::max(off_lattice, magnitude(offset));
       index = V::add_int(index, V::mul_int(V::to_int(nearest), V::set_int(lattice.stride[d])));
     }
     const F sample = V::mul(V::gather(lattice.samples, index), V::set(field.quantum));
     const F error = V::add(V::mul(V::sqrt(squared), V::set(lattice.spacing)), V::set(field.slack));
     Bounds result{V::sub(sample, error), V::add(sample, error)};
-    if (V::less(V::set(0.5001f), off_lattice) != 0) result.lower = V::max(result.lower, outside(field, p));
+    if (V::less(V::set(off_lattice), squared) != 0) result.lower = V::max(result.lower, outside(field, p));
     return result;
   }
 
@@ -60,7 +61,7 @@ struct Over {
   static F outside(const Field& field, const Points& p) {
     F squared = V::set(0.0f);
     for (int d = 0; d < 3; ++d) {
-      const F away = V::sub(magnitude(V::sub(p.v[d], V::set(field.box_centre[d]))), V::set(field.box_half[d]));
+      const F away = V::sub(V::magnitude(V::sub(p.v[d], V::set(field.box_centre[d]))), V::set(field.box_half[d]));
       const F beyond = V::max(away, V::set(0.0f));
       squared = V::add(squared, V::mul(beyond, beyond));
     }
@@ -93,12 +94,12 @@ struct Over {
     const F half[3] = {V::load(block.half[0]), V::load(block.half[1]), V::load(block.half[2])};
     F gap = V::set(-1e30f);
     for (int d = 0; d < 3; ++d) {
-      const F away = magnitude(V::sub(in_body.v[d], V::set(around.centre[d])));
+      const F away = V::magnitude(V::sub(in_body.v[d], V::set(around.centre[d])));
       gap = V::max(gap, V::sub(V::sub(away, V::set(around.half[d])), half[d]));
     }
     for (int row = 0; row < 3; ++row) {
       const float* turned = around.turned + 3 * row;
-      const F away = magnitude(V::sub(in_target.v[row], V::set(field.box_centre[row])));
+      const F away = V::magnitude(V::sub(in_target.v[row], V::set(field.box_centre[row])));
       const F wide = V::add(V::add(V::mul(V::set(turned[0]), half[0]), V::mul(V::set(turned[1]), half[1])),
                             V::add(V::mul(V::set(turned[2]), half[2]), V::set(field.box_half[row] + field.slack)));
       gap = V::max(gap, V::sub(away, wide));
@@ -127,49 +128,79 @@ struct Over {
     walk.stack[walk.depth++] = block.next[nearest];
   }
 
+  /// A block of which the boxes don't tell enough.
+  struct Open {
+    const Block* block;
+    Points centres;  ///< in the target's frame
+    F gap;           ///< above the threshold, of the boxes
+    int level;       ///< of the field
+  };
+
+  /// Takes blocks from the stack until one is open, and passes over those that are not; false if none is.
+  static bool next_open(const Block* blocks, const Field& field, const Surroundings& around, const Placement& placement,
+                        F threshold, F& clearance, Walk& walk, Open& open) {
+    while (walk.depth > 0) {
+      const std::int32_t next = walk.stack[--walk.depth];
+      open.block = &blocks[next / 4];
+      open.level = next % 4;
+      const Points in_body = centres(*open.block);
+      open.centres = placed(placement, in_body);
+      open.gap = V::sub(box_gap(*open.block, field, around, in_body, open.centres), threshold);
+      if (V::less_equal(open.gap, V::set(0.0f)) != 0) return true;
+      clearance = V::min(clearance, open.gap);
+    }
+    return false;
+  }
+
+  /// Decides the parts of a block by the distances at their centres: whether one is hit, and what else to look at.
+  static bool hit(const Open& opened, const Bounds& at, const Question& question, F& clearance, Walk& walk) {
+    const Block& block = *opened.block;
+    const F zero = V::set(0.0f), threshold = V::set(question.threshold);
+    const std::uint32_t is_piece = V::negative(V::load_int(block.next));
+    F radius = V::load(block.radius), core = V::load(block.core);
+    if (question.threshold < 0.0f) {
+      radius = V::select(is_piece, zero, radius);
+      core = V::min(core, zero);
+    } else if (question.by_balls) {
+      core = V::select(is_piece & V::less(radius, threshold), radius, core);
+    }
+    if (V::less(at.upper, V::add(threshold, core)) != 0) return true;
+
+    const F gap = V::max(opened.gap, V::sub(V::sub(at.lower, threshold), radius));
+    const std::uint32_t open = V::less_equal(gap, zero);
+    clearance = V::min(clearance, V::select(open, V::set(none_above), gap));
+    std::uint32_t inner = open & ~is_piece;
+    const std::uint32_t fine = inner & V::less(radius, V::set(question.detail));
+    if (fine != 0) {
+      if (question.threshold > 0.0f) return true;
+      clearance = zero;
+      inner &= ~fine;
+    }
+    for (std::uint32_t left = open & is_piece; left != 0; left &= left - 1)
+      walk.pieces[walk.piece_count++] = ~block.next[__builtin_ctz(left)];
+    if (inner == 0) return false;
+    alignas(64) float gaps[lanes];
+    V::store(gaps, gap);
+    push(block, inner, gaps, walk);
+    return false;
+  }
+
+  /// Two blocks at a time: the one's samples are awaited while the other's are on their way.
   static Verdict walk(const Block* blocks, const Field& field, const Placement& placement, const Question& question,
                       Walk& walk) {
-    const F zero = V::set(0.0f), threshold = V::set(question.threshold);
+    const F threshold = V::set(question.threshold);
     const Surroundings around(field, placement);
     F clearance = V::set(walk.clearance);
     walk.piece_count = 0;
-    while (walk.depth > 0 && walk.piece_count <= Walk::most_pieces - lanes) {
-      const std::int32_t next = walk.stack[--walk.depth];
-      const Block& block = blocks[next / 4];
-      const Points in_body = centres(block), in_target = placed(placement, in_body);
-      F gap = V::sub(box_gap(block, field, around, in_body, in_target), threshold);
-      if (V::less_equal(gap, zero) == 0) {
-        clearance = V::min(clearance, gap);
-        continue;
+    Open a, b;
+    while (walk.piece_count <= Walk::most_pieces - 2 * lanes &&
+           next_open(blocks, field, around, placement, threshold, clearance, walk, a)) {
+      if (next_open(blocks, field, around, placement, threshold, clearance, walk, b)) {
+        const Bounds at_a = bounds(field, a.level, a.centres), at_b = bounds(field, b.level, b.centres);
+        if (hit(a, at_a, question, clearance, walk) || hit(b, at_b, question, clearance, walk)) return Verdict::hit;
+      } else if (hit(a, bounds(field, a.level, a.centres), question, clearance, walk)) {
+        return Verdict::hit;
       }
-
-      const Bounds at = bounds(field, next % 4, in_target);
-      const std::uint32_t is_piece = V::negative(V::load_int(block.next));
-      F radius = V::load(block.radius), core = V::load(block.core);
-      if (question.threshold < 0.0f) {
-        radius = V::select(is_piece, zero, radius);
-        core = V::min(core, zero);
-      } else if (question.by_balls) {
-        core = V::select(is_piece & V::less(radius, threshold), radius, core);
-      }
-      if (V::less(at.upper, V::add(threshold, core)) != 0) return Verdict::hit;
-
-      gap = V::max(gap, V::sub(V::sub(at.lower, threshold), radius));
-      const std::uint32_t open = V::less_equal(gap, zero);
-      clearance = V::min(clearance, V::select(open, V::set(none_above), gap));
-      std::uint32_t inner = open & ~is_piece;
-      const std::uint32_t fine = inner & V::less(radius, V::set(question.detail));
-      if (fine != 0) {
-        if (question.threshold > 0.0f) return Verdict::hit;
-        clearance = zero;
-        inner &= ~fine;
-      }
-      for (std::uint32_t left = open & is_piece; left != 0; left &= left - 1)
-        walk.pieces[walk.piece_count++] = ~block.next[__builtin_ctz(left)];
-      if (inner == 0) continue;
-      alignas(64) float gaps[lanes];
-      V::store(gaps, gap);
-      push(block, inner, gaps, walk);
     }
     walk.clearance = V::least(clearance);
     return walk.depth > 0 || walk.piece_count > 0 ? Verdict::undecided : Verdict::free;
@@ -193,18 +224,18 @@ struct Over {
         F& entry = rotation[3 * row + column];
         entry = product(body_pose.rotation[column], body_pose.rotation[3 + column], body_pose.rotation[6 + column]);
         centre[row] = V::add(centre[row], V::mul(entry, V::set(body.centre[column])));
-        wide = V::add(wide, V::mul(magnitude(entry), V::set(body.half[column])));
+        wide = V::add(wide, V::mul(V::magnitude(entry), V::set(body.half[column])));
       }
-      result &= V::less_equal(magnitude(centre[row]), wide);
+      result &= V::less_equal(V::magnitude(centre[row]), wide);
       if (result == 0) return 0;
     }
     for (int column = 0; column < 3; ++column) {
       F wide = V::set(body.half[column] + reach), along = V::set(0.0f);
       for (int row = 0; row < 3; ++row) {
-        wide = V::add(wide, V::mul(magnitude(rotation[3 * row + column]), V::set(target.half[row])));
+        wide = V::add(wide, V::mul(V::magnitude(rotation[3 * row + column]), V::set(target.half[row])));
         along = V::add(along, V::mul(rotation[3 * row + column], centre[row]));
       }
-      result &= V::less_equal(magnitude(along), wide);
+      result &= V::less_equal(V::magnitude(along), wide);
     }
     return result;
   }
@@ -221,7 +252,8 @@ struct Over {
     }
     for (int k = 0; k < Facet::planes; ++k) {
       const float* n = result.plane[k];
-      result.plane[k][3] = facet.plane[k][3] + n[0] * p.translation[0] + n[1] * p.translation[1] + n[2] * p.translation[2];
+      result.plane[k][3] =
+          facet.plane[k][3] + n[0] * p.translation[0] + n[1] * p.translation[1] + n[2] * p.translation[2];
     }
     return result;
   }

@@ -57,6 +57,9 @@ struct Portable {
   static F max(const F& a, const F& b) {
     return each([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; });
   }
+  static F magnitude(const F& a) {
+    return each([&](int i) { return std::fabs(a.v[i]); });
+  }
   static F sqrt(const F& a) {
     return each([&](int i) { return std::sqrt(a.v[i]); });
   }
@@ -102,7 +105,7 @@ struct Portable {
 
 }  // namespace
 
-const Kernel portable{"portable", [] { return true; }, Over<Portable>::walk, Over<Portable>::measure,
+const Kernel portable{"portable",           [] { return true; },        Over<Portable>::walk, Over<Portable>::measure,
                       Over<Portable>::near, Over<Portable>::facets_near};
 
 }  // namespace tactus::contact::kernel

@@ -54,6 +54,9 @@ struct Sse41 {
   static F max(const F& a, const F& b) {
     return each([&](int k) { return _mm_max_ps(a.v[k], b.v[k]); });
   }
+  static F magnitude(const F& a) {
+    return each([&](int k) { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a.v[k]); });
+  }
   static F sqrt(const F& a) {
     return each([&](int k) { return _mm_sqrt_ps(a.v[k]); });
   }
@@ -109,7 +112,8 @@ struct Sse41 {
 
 }  // namespace
 
-const Kernel sse41{"sse41", [] { return __builtin_cpu_supports("sse4.1") != 0; }, Over<Sse41>::walk,
-                   Over<Sse41>::measure, Over<Sse41>::near, Over<Sse41>::facets_near};
+const Kernel sse41{"sse41",           [] { return __builtin_cpu_supports("sse4.1") != 0; },
+                   Over<Sse41>::walk, Over<Sse41>::measure,
+                   Over<Sse41>::near, Over<Sse41>::facets_near};
 
 }  // namespace tactus::contact::kernel
