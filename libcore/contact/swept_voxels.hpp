@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/body_path.hpp"
-#include "contact/kernel/voxels_kernel.hpp"
+#include "contact/kernel/voxels.hpp"
 #include "geometry/voxel_grid.hpp"
 #include "support/bitset.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contact/kernel/voxels_kernel.hpp"
+#include "contact/kernel/voxels.hpp"
 
 namespace tactus::contact::kernel {
 

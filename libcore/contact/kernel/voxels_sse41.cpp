@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <smmintrin.h>
 
-#include "contact/kernel/voxels_kernel.inl.hpp"
+#include "contact/kernel/voxels.inl.hpp"
 
 namespace tactus::contact::kernel {
 namespace {

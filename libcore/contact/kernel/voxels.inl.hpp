@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "contact/kernel/voxels_kernel.hpp"
+#include "contact/kernel/voxels.hpp"
 
 /// The kernels over a vector type `V` of `V::width` floats (`V::F`) and integers (`V::I`), with masks of as many bits.
 /// `V` is local to its file, so that no code compiled for one machine is linked into that for another.
