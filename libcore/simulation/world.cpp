@@ -92,7 +92,8 @@ belief::Observation World::execute(const action::Action& action) {
     const belief::Stop stop = belief::locate(*model_->task, action, observation);
     for (std::size_t at = stop.segment; at > stop.last_free;) travel_to(action.path[--at]);
   }
-  inserted_ = !observation.contact && model_->task->scene().is_seated(model_->task->base_from_tool(q_), base_from_target_);
+  inserted_ =
+      !observation.contact && model_->task->scene().is_seated(model_->task->base_from_tool(q_), base_from_target_);
   return observation;
 }
 
