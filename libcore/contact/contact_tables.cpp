@@ -73,13 +73,13 @@ std::uint64_t ContactTables::Table::window(std::size_t row, int x) const {
   return bit == 0 ? first[word] : first[word] >> bit | first[word + 1] << (64 - bit);
 }
 
-ContactTables::ContactTables(const TargetContact& contact, Lattice lattice, std::size_t most_bytes)
-    : contact_(contact), lattice_(std::move(lattice)), most_bytes_(most_bytes) {}
+ContactTables::ContactTables(const TargetContact& contact, Lattice lattice, double threshold, std::size_t most_bytes)
+    : contact_(contact), lattice_(std::move(lattice)), threshold_(threshold), most_bytes_(most_bytes) {}
 
 /// The offsets, low and high, at which the boxes of tool and target overlap.
 std::array<std::array<int, 3>, 2> ContactTables::offsets(int tool_turn, int target_turn) const {
-  const geometry::Box of_tool =
-      turned(contact_.bodies().body(tool).tree().box(), lattice_.tool_turns[tool_turn]).inflated(contact_.margin());
+  const geometry::Box of_tool = turned(contact_.bodies().body(tool).tree().box(), lattice_.tool_turns[tool_turn])
+                                    .inflated(std::max(0.0, threshold_));
   const geometry::Box of_target = turned(contact_.field().tree().box(), lattice_.target_turns[target_turn]);
   std::array<std::array<int, 3>, 2> range;
   for (int d = 0; d < 3; ++d) {
@@ -97,11 +97,12 @@ void ContactTables::decide(const Key& key, int x, int y, int size_x, int size_y,
   const double farthest = lattice_.pitch * std::hypot(std::max(middle_x - x, x + size_x - 1 - middle_x),
                                                       std::max(middle_y - y, y + size_y - 1 - middle_y));
   if (farthest == 0.0) {
-    if (contact_.reach(tool, target_from_tool, contact_.margin()).hit) table.fill(x, y, 1, 1);
+    if (contact_.reach(tool, target_from_tool, threshold_).hit) table.fill(x, y, 1, 1);
     return;
   }
-  if (!contact_.reach(tool, target_from_tool, contact_.margin() + farthest).hit) return;
-  if (contact_.reach(tool, target_from_tool, -farthest).hit) return table.fill(x, y, size_x, size_y);
+  if (!contact_.reach(tool, target_from_tool, threshold_ + farthest).hit) return;
+  if (contact_.reach(tool, target_from_tool, std::min(0.0, threshold_) - farthest).hit)
+    return table.fill(x, y, size_x, size_y);
   if (size_x >= size_y) {
     decide(key, x, y, size_x / 2, size_y, table);
     decide(key, x + size_x / 2, y, size_x - size_x / 2, size_y, table);
@@ -231,7 +232,7 @@ FirstContacts ContactTables::first_contacts(const LatticeMotion& motion) const {
 std::uint64_t ContactTables::fingerprint() const {
   std::uint64_t hash =
       mixed(mixed(mixed(1, contact_.target()), contact_.bodies().body(tool).mesh()), contact_.margin());
-  hash = mixed(hash, lattice_.pitch);
+  hash = mixed(mixed(hash, threshold_), lattice_.pitch);
   for (const auto* turns : {&lattice_.target_turns, &lattice_.tool_turns})
     for (const Eigen::Matrix3d& turn : *turns)
       for (const double value : turn.reshaped()) hash = mixed(hash, value);

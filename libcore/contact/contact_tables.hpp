@@ -36,12 +36,21 @@ class FirstContacts {
 /// First contacts of a tool that moves on a lattice, without its links, from tables of the offsets at which tool and
 /// target touch. A table is made from the general path when it is first asked for, one for each pair of turns and each
 /// offset in z, and kept while there is room. Any number of threads.
+///
+/// For cells that stand for every pose within a radius r of theirs (no point of the target farther than r from where it
+/// is at the cell's), tables with the thresholds margin + r and -r give the interval of first contacts: the former
+/// never too late, the latter never too early (as `TargetContact::first_contact_interval`).
 class ContactTables {
  public:
   /// `contact` must outlive the tables. Where more than `most_bytes` would be kept, all tables are dropped first.
-  ContactTables(const TargetContact& contact, Lattice lattice, std::size_t most_bytes = std::size_t{512} << 20);
+  ContactTables(const TargetContact& contact, Lattice lattice, std::size_t most_bytes = std::size_t{512} << 20)
+      : ContactTables(contact, std::move(lattice), contact.margin(), most_bytes) {}
+
+  /// `threshold` (m): of the tool, inflated by it if positive, deflated if negative.
+  ContactTables(const TargetContact& contact, Lattice lattice, double threshold, std::size_t most_bytes);
 
   const Lattice& lattice() const { return lattice_; }
+  double threshold() const { return threshold_; }
 
   /// The first waypoint does not count. Once the tables are there: O(waypoints * rows near the motion).
   FirstContacts first_contacts(const LatticeMotion& motion) const;
@@ -80,6 +89,7 @@ class ContactTables {
 
   const TargetContact& contact_;
   Lattice lattice_;
+  double threshold_;
   std::size_t most_bytes_;
   mutable std::mutex mutex_;
   mutable std::map<Key, TablePtr> tables_;

@@ -189,6 +189,46 @@ TEST(ContactTables, RestoredOnesAnswerAsTheSavedOnesAndOthersAreRefused) {
   EXPECT_EQ(restored.save(), bytes) << "nothing has changed after the errors";
 }
 
+/// Every pose that a cell stands for is first touched no earlier than the wide tables say, and no later than the deep
+/// ones.
+TEST(ContactTables, OfAReachAndADepthGiveAnIntervalForEveryPoseOfACell) {
+  Rng rng(9);
+  int touched = 0, surely = 0;
+  for (const double radius : {0.0015, 0.004}) {
+    const LatticeCase c(pairings()[1].tool, pairings()[1].target, random_lattice(rng));
+    const std::size_t room = std::size_t{64} << 20;
+    const ContactTables wide(c.contact, c.lattice, c.contact.margin() + radius, room);
+    const ContactTables deep(c.contact, c.lattice, -radius, room);
+    for (int m = 0; m < 4; ++m) {
+      const LatticeMotion motion = random_motion(c.lattice, rng);
+      const FirstContacts earliest = wide.first_contacts(motion), latest = deep.first_contacts(motion);
+      random_cells(c.lattice, rng).for_each([&](std::size_t i) {
+        if (rng.below(10) != 0) return;
+        Bitset cell(c.lattice.bits());
+        cell.set(i);
+        const auto waypoint = [&cell](const FirstContacts& found) {
+          const std::vector<std::size_t> counts = found.split(cell);
+          return static_cast<std::size_t>(std::find(counts.begin(), counts.end(), 1u) - counts.begin());
+        };
+        Pose base_from_target = c.lattice.base_from_target(c.lattice.cell(i));
+        base_from_target.translation() += radius * rng.uniform() * random_direction(rng);
+        std::size_t first = 1;
+        while (first < motion.size() &&
+               !c.contact
+                    .reach(0, base_from_target.inverse() * c.lattice.base_from_tool(motion[first]), c.contact.margin())
+                    .hit)
+          ++first;
+        EXPECT_LE(waypoint(earliest), first);
+        EXPECT_GE(waypoint(latest), first);
+        touched += first < motion.size();
+        surely += waypoint(latest) < motion.size();
+      });
+    }
+  }
+  EXPECT_GT(touched, 50);
+  EXPECT_GT(surely, 20);
+}
+
 TEST(ContactTables, AMotionOfNoWaypointsOrOneTouchesNothing) {
   Rng rng(8);
   const LatticeCase c(pairings()[0].tool, pairings()[0].target, random_lattice(rng));
