@@ -109,7 +109,7 @@ class VoxelState : public BeliefState {
 
   support::Hash128 hash() const override {
     std::uint64_t salt = action::path_id({q_});
-    for (const belief::ContactRecord& record : voxels_.contacts()) salt ^= record.candidates.hash(1).low;
+    for (const belief::ContactRecord& record : voxels_.contacts()) salt += record.candidates.hash(1).low;
     salt ^= feasible_.hash(2).low;
     return voxels_.possibly_occupied().hash(salt);
   }
