@@ -38,7 +38,6 @@ static void print_trial(FILE* out, const trial_result* trial) {
   json_number_field(out, "contacts", trial->contacts, json_full);
   json_number_field(out, "planner_calls", (double)trial->planner_calls, json_full);
   json_number_field(out, "planning_s", trial->planning_s, json_full);
-  json_number_field(out, "expansions", (double)trial->expansions, json_full);
   json_number_field(out, "phase1_cost_m", trial->phase1_cost_m, json_full);
   json_number_field(out, "position_error_m", trial->position_error_m, json_full);
   json_number_field(out, "angle_error_rad", trial->angle_error_rad, json_full);
