@@ -78,9 +78,9 @@ class Belief {
   /// motion was not stopped by a contact.
   bool is_goal() const;
 
-  /// Whether the belief still holds this pose: in the voxel phase every voxel centre inside the target there is
-  /// possibly occupied; in the pose phase a cell holds it. To 1e-9 m and rad; angles modulo whole turns, and in every
-  /// way in which roll, pitch and yaw describe the same rotation.
+  /// Whether the belief still holds this pose: it lies in the prior, and in the voxel phase every voxel centre inside
+  /// the target there is possibly occupied; in the pose phase a cell holds it. To 1e-9 m and rad; angles modulo whole
+  /// turns, and in every way in which roll, pitch and yaw describe the same rotation.
   bool contains(const Pose& base_from_target) const;
 
   /// Up to `count` poses drawn from all over the cells that reproduce the whole history exactly (phase 2 only). Where

@@ -18,7 +18,6 @@ double field_spacing(const Mesh& mesh) {
 Body::Body(const Mesh& mesh, double piece_radius)
     : mesh_(mesh),
       tree_(mesh),
-      sphere_(geometry::bounding_sphere(mesh)),
       balls_(mesh, piece_radius),
       extent_(contact::extent(tree_.box())),
       field_(std::make_shared<geometry::DistanceField>(mesh, field_spacing(mesh), 0.01, 2 * field_samples)) {}

@@ -18,7 +18,6 @@ class Body {
 
   const BallTree& balls() const { return balls_; }
   const geometry::TriangleTree& tree() const { return tree_; }
-  const geometry::Sphere& bounding_sphere() const { return sphere_; }
   const Mesh& mesh() const { return mesh_; }
   const kernel::Extent& extent() const { return extent_; }  ///< the box of its vertices
 
@@ -28,7 +27,6 @@ class Body {
  private:
   Mesh mesh_;
   geometry::TriangleTree tree_;
-  geometry::Sphere sphere_;
   BallTree balls_;
   kernel::Extent extent_;
   std::shared_ptr<const geometry::DistanceField> field_;

@@ -24,7 +24,6 @@ class FirstContacts {
   Bitset after_none(const Bitset& possible) const;
 
   std::size_t waypoints() const { return begin_.size() - 1; }
-  std::size_t bytes() const { return word_.size() * (sizeof(std::uint32_t) + sizeof(std::uint64_t)); }
 
  private:
   friend class ContactTables;
@@ -50,7 +49,6 @@ class ContactTables {
   ContactTables(const TargetContact& contact, Lattice lattice, double threshold, std::size_t most_bytes);
 
   const Lattice& lattice() const { return lattice_; }
-  double threshold() const { return threshold_; }
 
   /// The first waypoint does not count. Once the tables are there: O(waypoints * rows near the motion).
   FirstContacts first_contacts(const LatticeMotion& motion) const;
