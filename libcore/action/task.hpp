@@ -41,12 +41,22 @@ struct ActionOptions {
   double standoff = 0.03;  ///< m between the tool and the region on the retreat plane
 };
 
+/// How what a robot reports may differ from what it does. All 0: it stops dead, knows where it is, and feels every
+/// contact and nothing else.
+struct Sensing {
+  double stopping_distance = 0.0;  ///< m that a point of the robot may travel on after the first contact
+  double encoder_error = 0.0;      ///< m by which the reported joints may put a point of the tool off
+  double missed_contacts = 0.0;    ///< share of contacts that are not felt
+  double false_contacts = 0.0;     ///< share of motions that are stopped by a contact that was none
+};
+
 struct TaskOptions {
   MotionOptions motion;
   ActionOptions actions;
   CostWeights cost;
   double contact_margin = 1e-5;   ///< m
   double stop_tolerance = 0.001;  ///< m of tool motion before the reported stop within which the first contact may lie
+  Sensing sensing;
 };
 
 /// All that is const in a search: the scene, what collides with what, where motions are laid out, and the options.

@@ -53,6 +53,10 @@ std::uint64_t fingerprint(const Model& model) {
   for (const robot::Joint& joint : scene.robot->joints) print.add(joint.name);
   print.add(model.task->options().contact_margin);
   print.add(model.task->options().stop_tolerance);
+  const action::Sensing& sensing = model.task->options().sensing;
+  for (const double allowed :
+       {sensing.stopping_distance, sensing.encoder_error, sensing.missed_contacts, sensing.false_contacts})
+    print.add(allowed);
   print.add(static_cast<std::uint64_t>(options.kind));
   print.add(options.voxel_size);
   print.add(options.delta);

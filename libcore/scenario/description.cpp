@@ -17,6 +17,7 @@ using support::Status;
 
 constexpr Need required = Need::required;
 constexpr Range at_most_a_turn{0.0, 2.0 * std::numbers::pi};
+constexpr Range at_most_half{0.0, 0.5};
 constexpr std::uintmax_t largest_file = 1u << 20;
 
 void read_mesh(Reader& in, MeshSource& mesh) {
@@ -109,6 +110,13 @@ void read_contact(Reader& in, ContactDescription& contact) {
   in.number("insertion_step", contact.insertion_step, positive);
 }
 
+void read_sensing(Reader& in, SensingDescription& sensing) {
+  in.number("stopping_distance", sensing.stopping_distance, not_negative);
+  in.number("encoder_error", sensing.encoder_error, not_negative);
+  in.number("missed_contacts", sensing.missed_contacts, at_most_half);
+  in.number("false_contacts", sensing.false_contacts, at_most_half);
+}
+
 void read_motion(Reader& in, MotionDescription& motion) {
   in.number("speed", motion.speed, positive);
   in.number("approach_speed", motion.approach_speed, positive);
@@ -160,6 +168,7 @@ void read_top(Reader& in, Description& all) {
       "prior", [&](Reader& prior) { read_prior(prior, all.prior); }, required);
   in.section("belief", [&](Reader& belief) { read_belief(belief, all.belief); });
   in.section("contact", [&](Reader& contact) { read_contact(contact, all.contact); });
+  in.section("sensing", [&](Reader& sensing) { read_sensing(sensing, all.sensing); });
   in.section("motion", [&](Reader& motion) { read_motion(motion, all.motion); });
   in.section("actions", [&](Reader& actions) { read_actions(actions, all.actions); });
   in.section("cost", [&](Reader& cost) { read_cost(cost, all.cost); });

@@ -82,6 +82,14 @@ struct ContactDescription {
   double insertion_step = 0.001;  ///< m: the same while inserting
 };
 
+/// How what the robot reports may differ from what it does.
+struct SensingDescription {
+  double stopping_distance = 0.0;  ///< m that a point of the robot may travel on after the first contact
+  double encoder_error = 0.0;      ///< m by which the reported joints may put a point of the tool off
+  double missed_contacts = 0.0;    ///< share of contacts not felt, in [0, 0.5]
+  double false_contacts = 0.0;     ///< share of motions stopped by a contact that was none, in [0, 0.5]
+};
+
 struct MotionDescription {
   double speed = 0.25;              ///< m/s of the tool, free transit
   double approach_speed = 0.1;      ///< m/s
@@ -131,6 +139,7 @@ struct Description {
   PriorDescription prior;
   BeliefDescription belief;
   ContactDescription contact;
+  SensingDescription sensing;
   MotionDescription motion;
   ActionsDescription actions;
   CostDescription cost;

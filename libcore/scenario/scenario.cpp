@@ -82,6 +82,8 @@ action::TaskOptions task_options(const Description& d) {
   options.cost = {d.cost.metre, d.cost.radian, d.cost.action};
   options.contact_margin = d.contact.margin;
   options.stop_tolerance = d.contact.stop_tolerance;
+  options.sensing = {d.sensing.stopping_distance, d.sensing.encoder_error, d.sensing.missed_contacts,
+                     d.sensing.false_contacts};
   return options;
 }
 

@@ -131,6 +131,12 @@ TEST(SavedBelief, OfAnotherScenarioIsNotTaken) {
   error_of(
       small_model(Kind::hierarchical, {.roll_width = 0.31, .position_width = 0.04, .delta = 1300, .most_cells = 200}),
       bytes, Status::wrong_scenario);
+  error_of(small_model(Kind::hierarchical, {.roll_width = 0.3,
+                                            .position_width = 0.04,
+                                            .delta = 1300,
+                                            .most_cells = 200,
+                                            .sensing = {.stopping_distance = 0.002}}),
+           bytes, Status::wrong_scenario);
   EXPECT_NO_THROW(restored(
       small_model(Kind::hierarchical, {.roll_width = 0.3, .position_width = 0.04, .delta = 1300, .most_cells = 200}),
       bytes));

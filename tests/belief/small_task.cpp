@@ -111,6 +111,7 @@ std::shared_ptr<const action::Task> small_task(const SmallTask& small) {
   options.actions.primitive_lengths = {0.02, 0.06};
   options.actions.primitive_angles = {0.2};
   options.actions.probe_depth = {0.015};
+  options.sensing = small.sensing;
   return std::make_shared<const action::Task>(small_scene(small), options);
 }
 

@@ -21,6 +21,7 @@ struct SmallTask {
   double voxel_size = 0.005;     ///< m
   std::size_t delta = 1500;      ///< of 4,000 voxels or so
   std::size_t most_cells = 1500;
+  action::Sensing sensing{};
 };
 
 std::vector<Mesh> tool_pieces();  ///< closed, overlapping

@@ -73,6 +73,11 @@ belief:
   cell: {position: 0.03, angle: 0.3}
 contact:
   step: 0.002
+sensing:
+  stopping_distance: 0.002
+  encoder_error: 0.0001
+  missed_contacts: 0.02
+  false_contacts: 0.5
 motion:
   speed: 0.5
 actions:
@@ -144,6 +149,10 @@ TEST_F(ScenarioDescription, HasDefaultsForAllButTheTask) {
   EXPECT_EQ(d.belief.kind, "hierarchical");
   EXPECT_EQ(d.belief.delta, 3000);
   EXPECT_EQ(d.contact.margin, 1e-5);
+  EXPECT_EQ(d.sensing.stopping_distance, 0.0);
+  EXPECT_EQ(d.sensing.encoder_error, 0.0);
+  EXPECT_EQ(d.sensing.missed_contacts, 0.0);
+  EXPECT_EQ(d.sensing.false_contacts, 0.0);
   EXPECT_EQ(d.actions.primitive_lengths, (std::vector<double>{0.02, 0.06, 0.2}));
   EXPECT_EQ(d.planner.solver, "rtdp-bel");
   EXPECT_EQ(d.planner.budget_expansions, 0u);
@@ -166,6 +175,10 @@ TEST_F(ScenarioDescription, TakesWhatIsStated) {
   EXPECT_EQ(d.prior.width, (geometry::PoseVector{0.1, 0.2, 0.3, 0.1, 0.2, 2 * pi}));
   EXPECT_EQ(d.belief.kind, "particles");
   EXPECT_EQ(d.belief.cell.angle, 0.3);
+  EXPECT_EQ(d.sensing.stopping_distance, 0.002);
+  EXPECT_EQ(d.sensing.encoder_error, 0.0001);
+  EXPECT_EQ(d.sensing.missed_contacts, 0.02);
+  EXPECT_EQ(d.sensing.false_contacts, 0.5);
   EXPECT_TRUE(d.actions.primitive_angles.empty());
   EXPECT_EQ(d.cost.action, 0.0);
   EXPECT_EQ(d.cost.metre, 1.0);
@@ -238,6 +251,14 @@ TEST_F(ScenarioDescription, RefusesNumbersOutOfRange) {
                  "14: planner.horizon: found 3e9, expected a whole number from 1 to 2147483647");
   expect_mistake(smallest + "planner: {budget_expansions: -1}\n",
                  "14: planner.budget_expansions: found -1, expected a whole number of at least 0");
+  expect_mistake(smallest + "sensing:\n  stopping_distance: -0.001\n",
+                 "15: sensing.stopping_distance: found -0.001, expected a number of at least 0");
+  expect_mistake(smallest + "sensing: {encoder_error: -1}\n",
+                 "14: sensing.encoder_error: found -1, expected a number of at least 0");
+  for (const std::string rate : {"missed_contacts", "false_contacts"})
+    for (const std::string bad : {"-0.01", "0.51"})
+      expect_mistake(smallest + "sensing: {" + rate + ": " + bad + "}\n",
+                     "14: sensing." + rate + ": found " + bad + ", expected a number from 0 to 0.5");
   expect_mistake(smallest + "  width: {yaw: 3pi}\n",
                  "14: prior.width.yaw: found 3pi, expected a number from 0 to 6.283185307179586");
 }
@@ -315,7 +336,7 @@ TEST_F(ScenarioDescription, DocumentationHasEveryKey) {
   const std::string page = documentation();
   std::string yaml = "unknown: 1\nworld: [{unknown: 1}]\ntarget: {unknown: 1, tolerance: {unknown: 1}}\n";
   yaml += "prior: {unknown: 1, width: {unknown: 1}}\nbelief: {unknown: 1, cell: {unknown: 1}}\n";
-  for (const char* section : {"robot", "tool", "contact", "motion", "actions", "cost", "planner", "limits"})
+  for (const char* section : {"robot", "tool", "contact", "sensing", "motion", "actions", "cost", "planner", "limits"})
     yaml += std::string(section) + ": {unknown: 1}\n";
 
   int keys = 0;
@@ -335,7 +356,7 @@ TEST_F(ScenarioDescription, DocumentationHasEveryKey) {
           << key;
     }
   }
-  EXPECT_GT(keys, 70);
+  EXPECT_GT(keys, 74);
 }
 
 }  // namespace
