@@ -10,6 +10,7 @@ namespace tactus::action {
 namespace {
 
 constexpr std::size_t kept_configurations = 4096;
+constexpr double least_retreat = 0.3;  // of the way back along the tool's axis, towards the retreat plane
 
 }  // namespace
 
@@ -57,10 +58,10 @@ JointPath ActionLibrary::lead_in(const JointVector& q, const JointVector& start,
   if (q == start) return path;
   Pose back = task_.base_from_tool(q);
   const Pose goal = task_.base_from_tool(start);
-  const Vector3 axis = task_.frame().base_from_search.linear().col(2);
+  const Vector3 axis = task_.frame().base_from_search.linear().col(2), out = task_.frame().tool_axes(back).col(2);
   const double retreat = axis.dot(back.translation() - goal.translation());
-  if (retreat > 1e-6) {
-    back.translation() -= retreat * axis;
+  if (retreat > 1e-6 && out.dot(axis) > least_retreat) {
+    back.translation() -= retreat / out.dot(axis) * out;
     if (const auto leg = motion::straight_tool_path(world, tool_link, q, back, step))
       path = joined(std::move(path), *leg);
   }

@@ -36,13 +36,14 @@ void add_ray(const Task& task, Kind kind, const JointVector& q, const Pose& base
 std::vector<MotionPtr> primitives(const Task& task, const JointVector& q) {
   const ActionOptions& options = task.options().actions;
   const Pose base_from_tool = task.base_from_tool(q);
+  const Eigen::Matrix3d axes = task.frame().tool_axes(base_from_tool);
   std::vector<MotionPtr> motions;
   if (!options.primitive_lengths.empty()) {
     const double longest = *std::max_element(options.primitive_lengths.begin(), options.primitive_lengths.end());
     for (int axis = 0; axis < 3; ++axis)
       for (const double sign : {1.0, -1.0}) {
         Pose goal = base_from_tool;
-        goal.translation() += sign * longest * task.frame().base_from_search.linear().col(axis);
+        goal.translation() += sign * longest * axes.col(axis);
         const auto moved = [&](const JointVector& at) {
           return (task.base_from_tool(at).translation() - base_from_tool.translation()).norm();
         };
@@ -53,8 +54,8 @@ std::vector<MotionPtr> primitives(const Task& task, const JointVector& q) {
     const double largest = *std::max_element(options.primitive_angles.begin(), options.primitive_angles.end());
     for (const double sign : {1.0, -1.0}) {
       Pose goal = base_from_tool;
-      const Vector3 axis = task.frame().base_from_search.linear().col(2);
-      goal.linear() = Eigen::AngleAxisd(sign * largest, axis).toRotationMatrix() * base_from_tool.linear();
+      goal.linear() =
+          Eigen::AngleAxisd(sign * largest, Vector3(axes.col(2))).toRotationMatrix() * base_from_tool.linear();
       const auto turned = [&](const JointVector& at) {
         return geometry::angle_between(base_from_tool, task.base_from_tool(at));
       };

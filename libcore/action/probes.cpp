@@ -9,7 +9,10 @@ namespace {
 
 using geometry::Box;
 
-constexpr double beside = 0.005;  // m between the tool and the region where a sweep goes down
+constexpr double layer_spacing = 0.1;  // m between sweeps at different depths
+constexpr int most_layers = 3;
+constexpr double short_of_end = 0.01;  // m that a poke stays off the region's far side
+constexpr double beside = 0.005;       // m between the tool and the region where a sweep goes down
 
 /// Evenly spaced offsets over a range: its middle if it is narrower than the spacing, both ends inset by half a spacing
 /// otherwise.
@@ -18,6 +21,14 @@ std::vector<double> lines(double low, double high, double spacing, int most) {
   std::vector<double> offsets;
   for (int i = 0; i < count; ++i) offsets.push_back(low + (high - low) * (i + 0.5) / count);
   return offsets;
+}
+
+/// Depths of sweeps through a region: the first, and where it goes on for long behind that, others evenly spaced.
+std::vector<double> layers(double first, double depth) {
+  const int more = std::clamp(static_cast<int>(std::lround((depth - first) / layer_spacing)), 0, most_layers - 1);
+  std::vector<double> depths;
+  for (int k = 0; k <= more; ++k) depths.push_back(first + k * (depth - first) / (more + 1));
+  return depths;
 }
 
 /// Tool positions of a sweep along axis `along` (0 or 1) at `across` on the other: over the start, down to `z`, through
@@ -66,14 +77,20 @@ std::vector<MotionPtr> probes(const Task& task, const Box& region, const JointVe
   const auto add = [&](Kind kind, const std::vector<Vector3>& positions) {
     if (MotionPtr motion = anchored_motion(task, kind, positions, 0.0, near)) motions.push_back(std::move(motion));
   };
-  for (const double depth : options.probe_depth) {
-    const double z = std::min(region.low.z() + depth, region.high.z()) - frame.tool_extent.high.z();
-    for (const int along : {0, 1})
-      for (const double across : lines(region.low[1 - along], region.high[1 - along], options.probe_spacing, most))
-        for (const double sign : {1.0, -1.0}) add(Kind::sweep, sweep_positions(frame, region, along, sign, across, z));
+  const auto with_tip_at = [&](double depth) {
+    return std::min(region.low.z() + depth, region.high.z()) - frame.tool_extent.high.z();
+  };
+  for (const double first : options.probe_depth) {
+    const std::vector<double> depths = layers(first, region.size().z());
+    for (const double depth : depths)
+      for (const int along : {0, 1})
+        for (const double across : lines(region.low[1 - along], region.high[1 - along], options.probe_spacing, most))
+          for (const double sign : {1.0, -1.0})
+            add(Kind::sweep, sweep_positions(frame, region, along, sign, across, with_tip_at(depth)));
     for (const double u : lines(region.low.x(), region.high.x(), 2.0 * options.probe_spacing, (most + 1) / 2))
       for (const double v : lines(region.low.y(), region.high.y(), 2.0 * options.probe_spacing, (most + 1) / 2))
-        add(Kind::poke, {{u, v, frame.standoff}, {u, v, z}});
+        add(Kind::poke,
+            {{u, v, frame.standoff}, {u, v, with_tip_at(std::max(first, region.size().z() - short_of_end))}});
   }
   return motions;
 }

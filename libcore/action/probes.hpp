@@ -6,10 +6,10 @@
 namespace tactus::action {
 
 /// Macro probes aimed at where the target may still be: sweeps through `region` from its four sides, in lines
-/// `probe_spacing` apart (fewer and evenly spaced where the region is narrow), and pokes into it on a grid twice as
-/// wide. `region` is a box in the search frame; `most` bounds the number of lines per side. Each sets out from the
-/// retreat plane. What the known world or the limits block is left out. `near`: the configuration whose posture is
-/// kept.
+/// `probe_spacing` apart (fewer and evenly spaced where the region is narrow), in up to three layers where it is deep,
+/// and pokes to its far side on a grid twice as wide. `region` is a box in the search frame; `most` bounds the number
+/// of lines per side. Each sets out from the retreat plane. What the known world or the limits block is left out.
+/// `near`: the configuration whose posture is kept.
 std::vector<MotionPtr> probes(const Task& task, const geometry::Box& region, const JointVector& near, int most = 7);
 
 /// A free straight motion from the retreat plane along the given tool positions (search frame), at the given turn about

@@ -157,6 +157,7 @@ Trace read_trace(ByteReader& from, const Task& task) {
   trace.doubted = from.flag("doubt of an observation");
   trace.outcome = static_cast<std::size_t>(from.u64("outcome of an observation"));
   trace.path = action::read_path(from, task.scene().robot->dof(), trace.contact ? 2 : 1, "path of an observation");
+  trace.touch = trace.path.size() - (trace.contact ? 1 : 0);
   trace.bodies = BodyPath(task.bodies(), trace.path);
   return trace;
 }

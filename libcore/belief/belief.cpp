@@ -13,7 +13,10 @@ using support::Error;
 using support::Status;
 
 constexpr std::size_t tries_per_pose = 2;     // of projections
-constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from near ones
+constexpr std::size_t fair_trial = 24;        // projections after which it is asked whether they pay:
+constexpr std::size_t pays_from = 12;         // one in so many is exact
+constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
+constexpr double fine_radius = 0.0005;        // m: of a cell whose every pose comes near enough
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
 
 }  // namespace
@@ -137,12 +140,23 @@ std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) co
 
 std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known,
                                const support::Deadline& deadline) const {
-  std::vector<Pose> poses;
+  std::vector<Pose> poses, near;
   for (const Pose& pose : known)
     if (reproduces(task(), history_, pose)) poses.push_back(pose);
-  std::vector<Pose> near;
-  for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count && deadline.used_fraction() < 0.5; ++i) {
-    const auto drawn = cells_->draw(task(), history_, rng);
+  std::size_t exact = 0;
+  const auto goes_on = [&](std::size_t tried) {
+    const bool pays = tried < fair_trial || exact * pays_from >= tried;
+    return pays && tried < tries_per_pose * count && poses.size() < count && deadline.used_fraction() < 0.5;
+  };
+  for (std::size_t tried = 0; goes_on(tried); ++tried) {
+    const Cell cell = cells_->draw_cell(rng);
+    const PoseVector seed = cells_->draw_in(cell, rng);
+    if (cells_->radius(cell) < fine_radius) {
+      near.push_back(geometry::pose_from(seed));
+      continue;
+    }
+    const auto drawn = projected(task(), history_, seed);
+    exact += drawn && drawn->exact;
     if (drawn) (drawn->exact ? poses : near).push_back(drawn->pose);
   }
   for (std::size_t i = 0; i < near.size() && poses.size() < count / least_share; ++i) poses.push_back(near[i]);

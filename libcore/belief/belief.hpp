@@ -85,9 +85,9 @@ class Belief {
   bool contains(const Pose& base_from_target) const;
 
   /// Up to `count` poses drawn from all over the cells that reproduce the whole history exactly (phase 2 only). Where
-  /// they are hard to find fewer, made up to a third by poses that come near to that; at worst a cell's centre.
+  /// they are hard to find fewer; at least a third is made up then by poses of fine cells, or that come near.
   /// `known`: poses drawn for an earlier state of this belief; those that still hold are taken first.
-  /// Stops early, with at least one pose, once half of a budget in seconds is used up.
+  /// Looks no further once half of a budget in seconds is used up.
   std::vector<Pose> draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known = {},
                          const support::Deadline& deadline = support::Deadline::unlimited()) const;
 

@@ -76,11 +76,27 @@ bool CellBelief::update(const Task& task, const std::vector<const Trace*>& trace
     const double r = radius(cell);
     if (excludes && excludes(pose, r)) continue;
     if (std::all_of(traces.begin(), traces.end(),
-                    [&](const Trace* trace) { return may_reproduce(task, *trace, pose, r); }))
+                    [&](const Trace* trace) { return belief::may_reproduce(task, *trace, pose, r); }))
       kept.push_back(cell);
   }
   if (kept.empty()) return false;
   cells_ = std::move(kept);
+  return true;
+}
+
+/// Whether the cell may have given the whole history; settles what it can on the way.
+bool CellBelief::may_reproduce(const Task& task, const std::vector<Trace>& history, Cell& cell) const {
+  const Pose pose = geometry::pose_from(cell.centre);
+  const double r = radius(cell);
+  for (std::size_t i = history.size(); i-- > 0;) {
+    const Trace& trace = history[i];
+    const std::uint64_t bit = i < 64 ? std::uint64_t{1} << i : 0;
+    const bool is_settled = (cell.settled & bit) != 0;
+    if (trace.doubted || (is_settled && !trace.contact)) continue;
+    std::size_t from = is_settled ? trace.touch : 0;
+    if (fit(task, trace, pose, r, from) == Fit::none) return false;
+    if (from == trace.touch) cell.settled |= bit;
+  }
   return true;
 }
 
@@ -109,13 +125,11 @@ Cell CellBelief::draw_cell(support::Rng& rng) const {
   return cells_.back();
 }
 
-std::optional<Projection> CellBelief::draw(const Task& task, const std::vector<Trace>& history,
-                                           support::Rng& rng) const {
-  const Cell cell = draw_cell(rng);
+PoseVector CellBelief::draw_in(const Cell& cell, support::Rng& rng) const {
   const PoseVector half = half_width(cell);
-  PoseVector seed = cell.centre;
-  for (int d = 0; d < 6; ++d) seed[d] += half[d] * rng.uniform(-1.0, 1.0);
-  return projected(task, history, seed);
+  PoseVector v = cell.centre;
+  for (int d = 0; d < 6; ++d) v[d] += half[d] * rng.uniform(-1.0, 1.0);
+  return v;
 }
 
 bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
@@ -131,8 +145,8 @@ bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
       else
         kept.push_back(cell);
     }
-    for (const Cell& cell : candidates)
-      if (may_reproduce(task, history, geometry::pose_from(cell.centre), radius(cell))) kept.push_back(cell);
+    for (Cell& cell : candidates)
+      if (may_reproduce(task, history, cell)) kept.push_back(cell);
     if (kept.empty()) return false;
     cells_ = std::move(kept);
   }

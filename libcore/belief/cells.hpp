@@ -13,15 +13,18 @@ namespace tactus::belief {
 struct Cell {
   PoseVector centre{};
   std::array<std::uint8_t, 6> splits{};
-  bool operator==(const Cell&) const = default;
+  /// A bit for each of the first 64 traces of the history: no pose of the cell is touched where the robot was free.
+  /// What need not be asked again; follows from the rest, and is not compared.
+  std::uint64_t settled = 0;
+  bool operator==(const Cell& other) const { return centre == other.centre && splits == other.splits; }
 };
 
 struct CellOptions {
   double position = 0.004;               ///< initial full width, m
   double angle = 0.06;                   ///< initial full width, rad
-  std::size_t most = 4000;               ///< cells are split while there are fewer than half of these
-  std::size_t most_at_first = 1u << 23;  ///< initial cells are widened until there are no more than these
-  double finest_radius = 0.0008;         ///< m: no cell with a smaller radius is split
+  std::size_t most = 20000;              ///< cells are split while there are fewer than half of these
+  std::size_t most_at_first = 1u << 21;  ///< initial cells are widened until there are no more than these
+  double finest_radius = 0.00025;        ///< m: no cell with a smaller radius is split
 };
 
 /// Phase 2: a set of cells that covers every pose that may have given the observations. A cell goes only when no pose
@@ -54,12 +57,8 @@ class CellBelief {
   bool refine(const Task& task, const std::vector<Trace>& history,
               const std::function<bool(const CellBelief&)>& enough = {});
 
-  /// A random pose of a cell drawn by volume, brought towards agreement with the history (see `projected`). None if
-  /// that led nowhere.
-  std::optional<Projection> draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const;
-
-  /// A cell drawn by volume.
-  Cell draw_cell(support::Rng& rng) const;
+  Cell draw_cell(support::Rng& rng) const;  ///< by volume
+  PoseVector draw_in(const Cell& cell, support::Rng& rng) const;
 
   const std::optional<CellGrid>& grid() const { return grid_; }  ///< none once the cells are a list
 
@@ -70,6 +69,7 @@ class CellBelief {
  private:
   bool may_split(const Cell& cell) const { return radius(cell) > options_.finest_radius; }
   void split(const Cell& cell, std::vector<Cell>& halves) const;
+  bool may_reproduce(const Task& task, const std::vector<Trace>& history, Cell& cell) const;
   void list_when_few();
 
   CellOptions options_;

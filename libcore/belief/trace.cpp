@@ -108,27 +108,26 @@ Trace trace_of(const Task& task, const Action& action, const Observation& observ
   } else if (stop.segment > stop.last_free) {
     trace.path.push_back(observation.q);
   }
+  trace.touch = trace.path.size() - (trace.contact ? 1 : 0);
   trace.bodies = BodyPath(task.bodies(), trace.path);
   return trace;
 }
 
 bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_target) {
   const contact::TargetContact& target = task.target_contact();
-  const std::size_t last = trace.bodies.size() - 1;
-  if (!trace.contact) return !target.first_within(trace.bodies, base_from_target, 0.0, 0);
-  if (!target.within(trace.bodies, last, base_from_target, target.margin())) return false;
+  if (trace.contact && !target.within(trace.bodies, trace.touch, base_from_target, target.margin())) return false;
   const auto first = target.first_within(trace.bodies, base_from_target, 0.0, 0);
-  return !first || *first == last;
+  return !first || *first >= trace.touch;
 }
 
 bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius,
                    std::size_t from) {
   const contact::TargetContact& target = task.target_contact();
-  const std::size_t last = trace.bodies.size() - 1;
   const double sound = radius + target.margin();
-  if (trace.contact && !target.within(trace.bodies, last, base_from_target, sound)) return false;
+  if (trace.contact && !target.within(trace.bodies, trace.touch, base_from_target, sound)) return false;
+  if (from >= trace.touch) return true;
   const auto first = target.first_certain_contact(trace.bodies, base_from_target, sound, from);
-  return !first || (trace.contact && *first == last);
+  return !first || *first >= trace.touch;
 }
 
 bool reproduces(const Task& task, const std::vector<Trace>& history, const Pose& base_from_target) {
@@ -144,12 +143,15 @@ bool may_reproduce(const Task& task, const std::vector<Trace>& history, const Po
 
 Fit fit(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t& from) {
   const contact::TargetContact& target = task.target_contact();
-  if (!trace.contact) {
+  if (trace.contact && !target.within(trace.bodies, trace.touch, base_from_target, radius + target.margin()))
+    return Fit::none;
+  if (from < trace.touch) {
     const auto first = target.first_within(trace.bodies, base_from_target, radius + target.margin(), from);
-    if (!first) return Fit::all;
-    from = *first;
+    from = std::min(first.value_or(trace.touch), trace.touch);
   }
-  return may_reproduce(task, trace, base_from_target, radius, from) ? Fit::some : Fit::none;
+  if (from == trace.touch) return trace.contact ? Fit::some : Fit::all;
+  const auto certain = target.first_certain_contact(trace.bodies, base_from_target, radius + target.margin(), from);
+  return certain && *certain < trace.touch ? Fit::none : Fit::some;
 }
 
 }  // namespace tactus::belief

@@ -41,6 +41,7 @@ struct Trace {
   bool contact = false;
   std::size_t outcome = 0;  ///< as predicted by a planner: the waypoint of the action at the end of the segment in
                             ///< which it stopped; the path's size without contact
+  std::size_t touch = 0;    ///< free at the waypoints before this one; the path's size without contact
   bool doubted = false;     ///< it contradicts the others, and is left out: a contact that was none, for instance
   JointPath path;
   BodyPath bodies;
@@ -69,7 +70,8 @@ bool may_reproduce(const Task& task, const std::vector<Trace>& history, const Po
 /// Of the poses of such a set, none can have given a trace, perhaps some, or every one would have.
 enum class Fit { none, some, all };
 
-/// As `may_reproduce`; errs to `some` only. `from` is raised to what is found out.
+/// As `may_reproduce`; errs to `some` only. `from` is raised to what is found out: at `Trace::touch` all there is left
+/// to ask is whether they touch.
 Fit fit(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t& from);
 
 }  // namespace tactus::belief

@@ -66,6 +66,12 @@ Pose SearchFrame::base_from_tool(const Vector3& position, double turn) const {
   return base_from_search * search_from_placed;
 }
 
+Eigen::Matrix3d SearchFrame::tool_axes(const Pose& base_from_tool) const {
+  const Vector3 axis = base_from_tool.linear() * (search_from_tool.linear().transpose() * Vector3::UnitZ());
+  const Eigen::Matrix3d axes = base_from_search.linear();
+  return Eigen::Quaterniond::FromTwoVectors(axes.col(2), axis).toRotationMatrix() * axes;
+}
+
 SearchFrame search_frame(const Scene& scene, double clearance) {
   const Pose base_from_target = scene.prior.central_pose();
   const Pose base_from_seated = scene.seated(base_from_target);

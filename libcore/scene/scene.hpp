@@ -61,6 +61,10 @@ struct SearchFrame {
   /// The tool link's pose in the base frame whose origin stands at `position` (search frame), turned by `turn` rad
   /// about z.
   Pose base_from_tool(const Vector3& position, double turn = 0.0) const;
+
+  /// The axes (base frame, columns) along which a tool at `base_from_tool` is moved by hand, so to speak: z is the way
+  /// it goes in, whichever way it is tilted; x and y are the search frame's, tilted with it.
+  Eigen::Matrix3d tool_axes(const Pose& base_from_tool) const;
 };
 
 /// `clearance` in metres between the tool at standoff and the region.
