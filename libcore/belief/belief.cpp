@@ -13,10 +13,9 @@ using support::Error;
 using support::Status;
 
 constexpr std::size_t tries_per_pose = 2;     // of projections
-constexpr std::size_t fair_trial = 24;        // projections after which it is asked whether they pay:
+constexpr std::size_t least_trial = 24;       // projections after which it is asked whether they pay:
 constexpr std::size_t pays_from = 12;         // one in so many is exact
 constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
-constexpr double fine_radius = 0.0005;        // m: of a cell whose every pose comes near enough
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
 
 }  // namespace
@@ -138,29 +137,37 @@ std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) co
   return poses;
 }
 
+/// A pose to start from: anywhere in a cell, or three times in four not far from one that was found before.
+PoseVector Belief::seed_for(const std::vector<PoseVector>& found, support::Rng& rng) const {
+  const Cell cell = cells_->draw_cell(rng);
+  PoseVector seed = cells_->draw_in(cell, rng);
+  if (found.empty() || rng.below(4) == 0) return seed;
+  const PoseVector& from = found[rng.below(found.size())];
+  const double size = rng.uniform(0.0, 2.0);
+  for (int d = 0; d < 6; ++d) seed[d] = from[d] + size * (seed[d] - cell.centre[d]);
+  return seed;
+}
+
 std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known,
                                const support::Deadline& deadline) const {
-  std::vector<Pose> poses, near;
+  std::vector<PoseVector> exact, near, refuted;
   for (const Pose& pose : known)
-    if (reproduces(task(), history_, pose)) poses.push_back(pose);
-  std::size_t exact = 0;
-  const auto goes_on = [&](std::size_t tried) {
-    const bool pays = tried < fair_trial || exact * pays_from >= tried;
-    return pays && tried < tries_per_pose * count && poses.size() < count && deadline.used_fraction() < 0.5;
+    (reproduces(task(), history_, pose) ? exact : refuted).push_back(geometry::pose_vector(pose));
+  const std::size_t fair_trial = refuted.size() + least_trial;
+  const auto goes_on = [&, before = exact.size()](std::size_t tried) {
+    const bool pays = tried < fair_trial || (exact.size() - before) * pays_from >= tried;
+    return pays && tried < tries_per_pose * count && exact.size() < count && deadline.used_fraction() < 0.5;
   };
   for (std::size_t tried = 0; goes_on(tried); ++tried) {
-    const Cell cell = cells_->draw_cell(rng);
-    const PoseVector seed = cells_->draw_in(cell, rng);
-    if (cells_->radius(cell) < fine_radius) {
-      near.push_back(geometry::pose_from(seed));
-      continue;
-    }
+    const PoseVector seed = tried < refuted.size() ? refuted[tried] : seed_for(exact.empty() ? near : exact, rng);
     const auto drawn = projected(task(), history_, seed);
-    exact += drawn && drawn->exact;
-    if (drawn) (drawn->exact ? poses : near).push_back(drawn->pose);
+    if (drawn) (drawn->exact ? exact : near).push_back(drawn->pose);
   }
-  for (std::size_t i = 0; i < near.size() && poses.size() < count / least_share; ++i) poses.push_back(near[i]);
-  if (poses.empty()) poses.push_back(geometry::pose_from(cells_->draw_cell(rng).centre));
+  const std::size_t least = count / least_share;
+  for (std::size_t i = 0; i < near.size() && exact.size() < least; ++i) exact.push_back(near[i]);
+  while (exact.size() < least) exact.push_back(cells_->draw_in(cells_->draw_cell(rng), rng));
+  std::vector<Pose> poses;
+  for (const PoseVector& v : exact) poses.push_back(geometry::pose_from(v));
   return poses;
 }
 

@@ -7,11 +7,12 @@ namespace tactus::belief {
 namespace {
 
 constexpr int steps = 8;
-constexpr std::size_t looks = 6;         // at waypoints along a stretch that should be free
-constexpr double close_enough = 0.0002;  // m
-constexpr double clear_by = 0.0002;      // m, where the robot was free
-constexpr double damping = 1e-8;         // m^2
-constexpr double longest_shift = 0.02;   // m in one step
+constexpr std::size_t looks = 6;          // at waypoints along a stretch that should be free
+constexpr double close_enough = 0.00005;  // m
+constexpr double clear_by = 0.00005;      // m, where the robot was free
+constexpr double near = 0.001;            // m by which a demand may be missed
+constexpr double damping = 1e-8;          // m^2
+constexpr double longest_shift = 0.02;    // m in one step
 
 using Row = Eigen::Matrix<double, 1, 6>;
 
@@ -41,6 +42,11 @@ struct Demands {
   void add(const Row& row, double amount) {
     rows.push_back(row);
     amounts.push_back(amount);
+  }
+  double largest() const {
+    double most = 0.0;
+    for (const double amount : amounts) most = std::max(most, std::abs(amount));
+    return most;
   }
 };
 
@@ -90,21 +96,28 @@ PoseVector moved(const PoseVector& v, const Demands& demands, double lever) {
   return next;
 }
 
+/// The box's point nearest to `v`, number by number.
+PoseVector inside(const scene::Prior& prior, PoseVector v) {
+  for (int d = 0; d < 6; ++d) {
+    const double half = 0.5 * prior.width[d], value = d < 3 ? v[d] : scene::nearest_angle(v[d], prior.centre[d]);
+    v[d] = std::clamp(value, prior.centre[d] - half, prior.centre[d] + half);
+  }
+  return v;
+}
+
 }  // namespace
 
-std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, PoseVector seed) {
+std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed) {
   const double lever = 0.5 * geometry::diameter(task.scene().target.mesh);
+  PoseVector at = seed;
   for (int step = 0; step < steps; ++step) {
-    const Pose pose = geometry::pose_from(seed);
-    if (reproduces(task, history, pose)) {
-      if (task.scene().prior.contains(seed)) return Projection{pose, true};
-      return std::nullopt;
-    }
-    seed = moved(seed, demands_of(task, history, seed), lever);
-    if (!task.scene().prior.contains(seed, 0.02)) return std::nullopt;
+    if (reproduces(task, history, geometry::pose_from(at))) return Projection{at, true};
+    const Demands demands = demands_of(task, history, at);
+    const bool is_last = step + 1 == steps;
+    if (is_last) return demands.largest() < near ? std::optional(Projection{at, false}) : std::nullopt;
+    at = inside(task.scene().prior, moved(at, demands, lever));
   }
-  if (!task.scene().prior.contains(seed)) return std::nullopt;
-  return Projection{geometry::pose_from(seed), false};
+  return std::nullopt;
 }
 
 }  // namespace tactus::belief

@@ -11,13 +11,13 @@ using geometry::PoseVector;
 
 /// A pose brought towards agreement with a history.
 struct Projection {
-  Pose pose = Pose::Identity();
-  bool exact = false;  ///< it reproduces the whole history; else it comes within a millimetre or so of that
+  PoseVector pose{};
+  bool exact = false;  ///< it reproduces the whole history; else it comes within a millimetre of that
 };
 
 /// A pose near `seed`, inside the prior: Gauss-Newton steps in the prior's free dimensions bring the target into touch
 /// with the robot at every recorded contact, and out of the way where it was free, until the pose reproduces the whole
-/// history or the steps are used up. None if that leads out of the prior.
-std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, PoseVector seed);
+/// history or the steps are used up. None if it is still far from that then.
+std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed);
 
 }  // namespace tactus::belief

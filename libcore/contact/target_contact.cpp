@@ -13,6 +13,7 @@ constexpr double field_spacing = 0.001;
 constexpr double field_border = 0.01;
 constexpr std::size_t field_samples = 1'000'000;
 constexpr double facet_reach = 0.002;  // m: the radius of the largest piece that needs no tree of triangles
+constexpr int halvings = 4;            // of a piece in which the nearest point is looked for
 constexpr double box_slack = 2e-6;     // m, of boxes and triangles compared in single precision
 
 /// The lanes of sixteen from `first` on that are in [from, to).
@@ -38,6 +39,17 @@ Pose inverse(const Pose& a) {
   result.translation() = -a.linear().transpose().lazyProduct(a.translation());
   result.makeAffine();
   return result;
+}
+
+/// Of the four triangles into which its sides' middles cut a triangle, the one whose middle is nearest to `p`.
+Corners quarter_nearest_to(const Vector3& p, const Corners& corners, const Corners& middle) {
+  const std::array<Corners, 4> quarters{{{corners[0], middle[1], middle[2]},
+                                         {corners[1], middle[2], middle[0]},
+                                         {corners[2], middle[0], middle[1]},
+                                         middle}};
+  const auto away = [&p](const Corners& c) { return ((c[0] + c[1] + c[2]) / 3.0 - p).squaredNorm(); };
+  return *std::min_element(quarters.begin(), quarters.end(),
+                           [&](const Corners& a, const Corners& b) { return away(a) < away(b); });
 }
 
 }  // namespace
@@ -209,16 +221,28 @@ ContactInterval TargetContact::first_contact_interval(const BodyPath& path, cons
           first_certain_contact(path, base_from_target, radius).value_or(path.size())};
 }
 
-/// The point of a piece that is deepest in the target or nearest to it, if it beats what was found before.
+/// Looks at the middle and the corners of a piece, and where one beats what was found before, closer round about.
 void TargetContact::look_at(const Piece& piece, const Pose& target_from_body, Nearest& best) const {
-  const auto consider = [&](const Vector3& p) {
+  const auto distance = [&](const Vector3& p) {
     const geometry::DistanceBounds bounds = field_.bounds(p);
-    if (bounds.lower >= best.distance) return;
-    const double estimate = bounds.upper > field_border ? 0.5 * (bounds.lower + bounds.upper) : field_.estimate(p);
-    if (estimate < best.distance) best.distance = estimate, best.point = p;
+    return bounds.lower > field_border ? 0.5 * (bounds.lower + bounds.upper) : field_.estimate(p);
   };
-  consider(target_from_body * piece.centre);
-  for (const Vector3& corner : piece.corners) consider(target_from_body * corner);
+  Corners corners = geometry::transformed(piece.corners, target_from_body);
+  Vector3 nearest = target_from_body * piece.centre;
+  double least = distance(nearest);
+  const auto consider = [&](const Vector3& p) {
+    if (const double d = distance(p); d < least) least = d, nearest = p;
+  };
+  for (const Vector3& corner : corners) consider(corner);
+  if (least - piece.radius >= best.distance) return;
+  for (int halving = 0; halving < halvings; ++halving) {
+    const Corners middle{0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0]),
+                         0.5 * (corners[0] + corners[1])};
+    for (const Vector3& m : middle) consider(m);
+    corners = quarter_nearest_to(nearest, corners, middle);
+    consider((corners[0] + corners[1] + corners[2]) / 3.0);
+  }
+  if (least < best.distance) best.distance = least, best.point = nearest;
 }
 
 void TargetContact::nearest(const Body& body, const Pose& target_from_body, Nearest& best) const {
@@ -253,6 +277,7 @@ Nearest TargetContact::nearest(const BodyPath& path, std::size_t waypoint, const
     if (waypoint >= near.begin && waypoint < near.end)
       nearest(bodies_->body(body), target_from_base * path.base_from_body(waypoint, body), result);
   }
+  if (result.distance < field_border) result.distance = field_.exact(result.point);
   result.gradient = field_.gradient(result.point);
   return result;
 }

@@ -28,10 +28,11 @@ double reach_of(const Mesh& mesh) {
 }  // namespace
 
 bool Scene::is_seated(const Pose& base_from_tool, const Pose& base_from_target, const PoseVector& half) const {
-  const Pose wanted = seated(base_from_target);
-  const double shift = cell_radius(half, target.target_from_seated.translation().norm());
-  return (wanted.translation() - base_from_tool.translation()).norm() + shift <= target.position_tolerance &&
-         geometry::angle_between(wanted, base_from_tool) + half[3] + half[4] + half[5] <= target.angle_tolerance;
+  const Vector3 wanted = base_from_target.translation();
+  const Vector3 got = base_from_tool * target.target_from_seated.inverse().translation();
+  return (wanted - got).norm() + cell_radius(half, 0.0) <= target.position_tolerance &&
+         geometry::angle_between(seated(base_from_target), base_from_tool) + half[3] + half[4] + half[5] <=
+             target.angle_tolerance;
 }
 
 Box target_region(const Scene& scene, const Pose& frame_from_base) {

@@ -19,7 +19,7 @@ struct Target {
   Pose target_from_seated = Pose::Identity();  ///< the tool link's pose when the task is done
   Vector3 approach_axis = Vector3::UnitX();    ///< unit, in the target's frame: the way the tool goes in
   double approach_depth = 0.02;       ///< m of the last straight motion, along which the tool may be inside the target
-  double position_tolerance = 0.003;  ///< m, of the tool against the seated pose
+  double position_tolerance = 0.003;  ///< m, of the tool against the seated pose, at the target's origin
   double angle_tolerance = 0.15;      ///< rad
 };
 

@@ -178,7 +178,8 @@ double PoseProblem::direct_cost(const Pose& base_from_tool, std::size_t pose) co
   const scene::Target& target = task_->scene().target;
   const double metres = (seated_[pose].translation() - base_from_tool.translation()).norm();
   const double radians = geometry::angle_between(base_from_tool, seated_[pose]);
-  return weights.metre * std::max(0.0, metres - target.position_tolerance) +
+  const double tilted = target.angle_tolerance * target.target_from_seated.translation().norm();
+  return weights.metre * std::max(0.0, metres - target.position_tolerance - tilted) +
          weights.radian * std::max(0.0, radians - target.angle_tolerance) + weights.action;
 }
 
