@@ -37,20 +37,22 @@ void cut(const Corners& c, int shell, double piece_radius, std::vector<Piece>& p
 
 using Range = std::pair<std::size_t, std::size_t>;
 
-/// Halves the range of most pieces across its longest side until there are sixteen, or none of more than one piece.
+/// Halves the range of most pieces across its longest side until there are sixteen, or none of more than a block holds;
+/// what one block holds is taken apart to single pieces. Halves are multiples of sixteen, which fill their blocks.
 std::vector<Range> sixteenths(std::vector<Piece>& pieces, Range whole) {
+  const std::size_t unit = whole.second - whole.first > kernel::lanes ? kernel::lanes : 1;
   std::vector<Range> parts{whole};
   while (parts.size() < kernel::lanes) {
     const auto largest = std::max_element(parts.begin(), parts.end(), [](const Range& a, const Range& b) {
       return a.second - a.first < b.second - b.first;
     });
     const auto [begin, end] = *largest;
-    if (end - begin < 2) break;
+    if (end - begin <= unit) break;
     geometry::Box centres;
     for (std::size_t i = begin; i < end; ++i) centres.add(pieces[i].centre);
     int axis = 0;
     centres.size().maxCoeff(&axis);
-    const std::size_t middle = (begin + end) / 2;
+    const std::size_t middle = begin + ((end - begin) / 2 + unit / 2) / unit * unit;
     const auto at = [&](std::size_t i) { return pieces.begin() + static_cast<std::ptrdiff_t>(i); };
     std::nth_element(at(begin), at(middle), at(end),
                      [axis](const Piece& a, const Piece& b) { return a.centre[axis] < b.centre[axis]; });

@@ -24,6 +24,15 @@ std::uint32_t lanes_within(std::size_t first, std::size_t from, std::size_t to) 
   return mask;
 }
 
+/// Sends for the pieces that a walk has listed: the wait for one is then the wait for all.
+void fetch(const std::vector<Piece>& pieces, const kernel::Walk& walk) {
+  constexpr std::size_t line = 64;
+  for (int i = 0; i < walk.piece_count; ++i) {
+    const char* const piece = reinterpret_cast<const char*>(&pieces[walk.pieces[i]]);
+    for (std::size_t k = 0; k < sizeof(Piece); k += line) __builtin_prefetch(piece + k);
+  }
+}
+
 // Eigen's own are not inlined, and take twice as long.
 Pose product(const Pose& a, const Pose& b) {
   Pose result;
@@ -133,6 +142,7 @@ Reach TargetContact::reach(const Body& body, const Pose& target_from_body, doubl
   do {
     if (kernel_.walk(body.balls().blocks().data(), image_.view(), at, question, walk) == kernel::Verdict::hit)
       return {true, 0.0};
+    fetch(body.balls().pieces(), walk);
     for (int i = 0; i < walk.piece_count; ++i)
       if (piece_hit(body.balls().pieces()[walk.pieces[i]], target_from_body, at, threshold)) return {true, 0.0};
     pieces_free = pieces_free || walk.piece_count > 0;

@@ -70,7 +70,7 @@ struct Walk {
   static constexpr int most_pieces = 64;
   static constexpr int most_blocks = 256;  ///< for trees of 9 levels, two blocks looked at together
 
-  std::int32_t stack[most_blocks];
+  std::int32_t stack[most_blocks + lanes];  ///< sixteen are written at once, of which some may not count
   std::int32_t depth;
   std::int32_t pieces[most_pieces];
   std::int32_t piece_count;

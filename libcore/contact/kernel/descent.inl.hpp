@@ -113,19 +113,16 @@ struct Over {
     V::store(upper, at.upper);
   }
 
-  /// Puts blocks on the stack, the nearest last.
-  static void push(const Block& block, std::uint32_t which, const float (&gaps)[lanes], Walk& walk) {
-    int nearest = __builtin_ctz(which);
-    for (std::uint32_t left = which & (which - 1); left != 0; left &= left - 1) {
-      int lane = __builtin_ctz(left);
-      if (gaps[lane] < gaps[nearest]) {
-        const int farther = nearest;
-        nearest = lane;
-        lane = farther;
-      }
-      walk.stack[walk.depth++] = block.next[lane];
-    }
-    walk.stack[walk.depth++] = block.next[nearest];
+  /// Puts blocks on the stack, that of the least key last.
+  static void push(const Block& block, std::uint32_t which, const F& key, Walk& walk) {
+    const F keys = V::select(which, key, V::set(none_above));
+    const std::uint32_t least = which & V::less_equal(keys, V::set(V::least(keys)));
+    const int lane = __builtin_ctz(least != 0 ? least : which);
+    std::int32_t* const added = walk.stack + walk.depth;
+    V::compress(added, which, V::load_int(block.next));
+    walk.depth += __builtin_popcount(which);
+    added[__builtin_popcount(which & ((1u << lane) - 1u))] = walk.stack[walk.depth - 1];
+    walk.stack[walk.depth - 1] = block.next[lane];
   }
 
   /// A block of which the boxes don't tell enough.
@@ -176,12 +173,10 @@ struct Over {
       clearance = zero;
       inner &= ~fine;
     }
-    for (std::uint32_t left = open & is_piece; left != 0; left &= left - 1)
-      walk.pieces[walk.piece_count++] = ~block.next[__builtin_ctz(left)];
-    if (inner == 0) return false;
-    alignas(64) float gaps[lanes];
-    V::store(gaps, gap);
-    push(block, inner, gaps, walk);
+    const std::uint32_t pieces = open & is_piece;
+    V::compress(walk.pieces + walk.piece_count, pieces, V::sub_int(V::set_int(-1), V::load_int(block.next)));
+    walk.piece_count += __builtin_popcount(pieces);
+    if (inner != 0) push(block, inner, V::sub(at.upper, core), walk);
     return false;
   }
 

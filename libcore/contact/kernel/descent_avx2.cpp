@@ -62,11 +62,20 @@ struct Avx2 {
   static I add_int(const I& a, const I& b) {
     return {_mm256_add_epi32(a.low, b.low), _mm256_add_epi32(a.high, b.high)};
   }
+  static I sub_int(const I& a, const I& b) {
+    return {_mm256_sub_epi32(a.low, b.low), _mm256_sub_epi32(a.high, b.high)};
+  }
   static I mul_int(const I& a, const I& b) {
     return {_mm256_mullo_epi32(a.low, b.low), _mm256_mullo_epi32(a.high, b.high)};
   }
   static I to_int(const F& a) { return {_mm256_cvttps_epi32(a.low), _mm256_cvttps_epi32(a.high)}; }
   static std::uint32_t negative(const I& a) { return mask(_mm256_castsi256_ps(a.low), _mm256_castsi256_ps(a.high)); }
+  static void compress(std::int32_t* p, std::uint32_t m, const I& a) {
+    alignas(32) std::int32_t v[lanes];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(v), a.low);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(v + 8), a.high);
+    for (; m != 0; m &= m - 1) *p++ = v[__builtin_ctz(m)];
+  }
   static __m256 gather(const std::int16_t* base, __m256i index) {
     const __m256i pairs = _mm256_i32gather_epi32(reinterpret_cast<const int*>(base), index, 2);
     return _mm256_cvtepi32_ps(_mm256_srai_epi32(_mm256_slli_epi32(pairs, 16), 16));

@@ -28,9 +28,13 @@ struct Avx512 {
   static I set_int(std::int32_t a) { return _mm512_set1_epi32(a); }
   static I load_int(const std::int32_t* p) { return _mm512_load_si512(p); }
   static I add_int(I a, I b) { return _mm512_add_epi32(a, b); }
+  static I sub_int(I a, I b) { return _mm512_sub_epi32(a, b); }
   static I mul_int(I a, I b) { return _mm512_mullo_epi32(a, b); }
   static I to_int(F a) { return _mm512_cvttps_epi32(a); }
   static std::uint32_t negative(I a) { return _mm512_cmplt_epi32_mask(a, _mm512_setzero_si512()); }
+  static void compress(std::int32_t* p, std::uint32_t m, I a) {
+    _mm512_storeu_si512(p, _mm512_maskz_compress_epi32(static_cast<__mmask16>(m), a));
+  }
   static F gather(const std::int16_t* base, I index) {
     const I pairs = _mm512_i32gather_epi32(index, base, 2);
     return _mm512_cvtepi32_ps(_mm512_srai_epi32(_mm512_slli_epi32(pairs, 16), 16));

@@ -89,6 +89,9 @@ struct Portable {
   static I add_int(const I& a, const I& b) {
     return each_int([&](int i) { return a.v[i] + b.v[i]; });
   }
+  static I sub_int(const I& a, const I& b) {
+    return each_int([&](int i) { return a.v[i] - b.v[i]; });
+  }
   static I mul_int(const I& a, const I& b) {
     return each_int([&](int i) { return a.v[i] * b.v[i]; });
   }
@@ -97,6 +100,9 @@ struct Portable {
   }
   static std::uint32_t negative(const I& a) {
     return mask([&](int i) { return a.v[i] < 0; });
+  }
+  static void compress(std::int32_t* p, std::uint32_t m, const I& a) {
+    for (; m != 0; m &= m - 1) *p++ = a.v[__builtin_ctz(m)];
   }
   static F gather(const std::int16_t* base, const I& index) {
     return each([&](int i) { return static_cast<float>(base[index.v[i]]); });

@@ -91,6 +91,9 @@ struct Sse41 {
   static I add_int(const I& a, const I& b) {
     return each_int([&](int k) { return _mm_add_epi32(a.v[k], b.v[k]); });
   }
+  static I sub_int(const I& a, const I& b) {
+    return each_int([&](int k) { return _mm_sub_epi32(a.v[k], b.v[k]); });
+  }
   static I mul_int(const I& a, const I& b) {
     return each_int([&](int k) { return _mm_mullo_epi32(a.v[k], b.v[k]); });
   }
@@ -99,6 +102,11 @@ struct Sse41 {
   }
   static std::uint32_t negative(const I& a) {
     return mask([&](int k) { return _mm_castsi128_ps(a.v[k]); });
+  }
+  static void compress(std::int32_t* p, std::uint32_t m, const I& a) {
+    alignas(16) std::int32_t v[lanes];
+    for (int k = 0; k < parts; ++k) _mm_store_si128(reinterpret_cast<__m128i*>(v) + k, a.v[k]);
+    for (; m != 0; m &= m - 1) *p++ = v[__builtin_ctz(m)];
   }
   static F gather(const std::int16_t* base, const I& index) {
     alignas(16) std::int32_t at[lanes];
