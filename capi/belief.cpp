@@ -146,11 +146,13 @@ tactus_status tactus_belief_poses(const tactus_belief* belief, double* poses, si
   return guarded(__func__, [&] {
     const Held held(belief);
     const bool any = held.belief.phase() == belief::Phase::poses;
-    const std::size_t rows = any ? held.belief.cells().cells().size() : 0;
+    const std::size_t rows = any ? held.belief.cells().size() : 0;
     double* out = room_for(rows, poses, capacity, count, "poses");
-    if (out == nullptr) return;
-    for (std::size_t c = 0; c < rows; ++c)
-      write_pose(geometry::pose_from(held.belief.cells().cells()[c].centre), out + 7 * c);
+    if (out == nullptr || !any) return;
+    held.belief.cells().for_each([&](const belief::Cell& cell) {
+      write_pose(geometry::pose_from(cell.centre), out);
+      out += 7;
+    });
   });
 }
 

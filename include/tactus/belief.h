@@ -57,7 +57,8 @@ TACTUS_API void tactus_belief_destroy(tactus_belief* belief) TACTUS_NOEXCEPT;
  * Takes in what the robot reported after it executed `action`. The belief's configuration becomes the last free
  * waypoint after a contact (see `tactus_action_retreat`), and where the robot stopped without one. A stop without
  * contact midway is legal: what was travelled is free. An observation that contradicts all that is known does not empty
- * the belief: it is left out, and the belief's health says so.
+ * the belief: its health says so, and of all observations as few as explain it (it need not be the last) are doubted
+ * from then on.
  *
  * TACTUS_STOP_OFF_PATH, TACTUS_INVALID_ARGUMENT (a NaN, a wrong number of joints), TACTUS_WRONG_SCENARIO,
  * TACTUS_STRUCT_SIZE.
@@ -85,7 +86,7 @@ enum {
 
 enum {
   TACTUS_HEALTH_GOOD = 0,
-  TACTUS_HEALTH_CONTRADICTED = 1 /**< an observation was impossible by all that was known, and was left out */
+  TACTUS_HEALTH_CONTRADICTED = 1 /**< the observations contradicted each other: some are doubted, and left out */
 };
 
 /** A belief in numbers. Six numbers of a pose are x y z (m) and roll pitch yaw (rad, as in `tactus_pose_from_rpy`). */

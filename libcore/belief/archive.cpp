@@ -13,7 +13,7 @@ namespace {
 using support::ByteReader;
 using support::ByteWriter;
 
-constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 1};
+constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 2};
 constexpr std::uint8_t most_splits = 60;  // of one dimension: far below any use
 
 /// A running hash of whatever a saved belief makes sense with only.
@@ -63,6 +63,7 @@ std::uint64_t fingerprint(const Model& model) {
   print.add(options.cells.position);
   print.add(options.cells.angle);
   print.add(options.cells.most);
+  print.add(options.cells.most_at_first);
   print.add(options.cells.finest_radius);
   return print.sum();
 }
@@ -76,7 +77,7 @@ Bitset read_set(ByteReader& from, std::size_t size, const char* field) {
   for (std::size_t w = 0; w < set.words().size(); ++w)
     for (std::uint64_t rest = from.u64(field); rest != 0; rest &= rest - 1) {
       const std::size_t member = 64 * w + static_cast<std::size_t>(std::countr_zero(rest));
-      if (member >= size) from.fail(field, "voxel " + std::to_string(member), "less than " + std::to_string(size));
+      if (member >= size) from.fail(field, std::to_string(member), "less than " + std::to_string(size));
       set.set(member);
     }
   return set;
@@ -98,36 +99,52 @@ VoxelBelief read_voxels(ByteReader& from, const std::shared_ptr<const VoxelModel
 }
 
 void write_cells(ByteWriter& to, const CellBelief& cells) {
-  to.u64(cells.cells().size());
-  for (const Cell& cell : cells.cells()) {
+  to.u8(cells.grid() ? 1 : 0);
+  if (cells.grid()) return write_set(to, cells.grid()->members());
+  to.u64(cells.size());
+  cells.for_each([&](const Cell& cell) {
     for (const double value : cell.centre) to.f64(value);
     for (const std::uint8_t splits : cell.splits) to.u8(splits);
+  });
+}
+
+Cell read_cell(ByteReader& from, const scene::Prior& prior) {
+  Cell cell;
+  for (int d = 0; d < 6; ++d) {
+    cell.centre[d] = from.f64("cell centre");
+    if (!(std::abs(cell.centre[d] - prior.centre[d]) <= 0.5 * prior.width[d] + 1e-9))
+      from.fail("cell centre", std::to_string(cell.centre[d]), "a number inside the prior");
   }
+  for (std::uint8_t& splits : cell.splits) {
+    splits = from.u8("cell splits");
+    if (splits > most_splits)
+      from.fail("cell splits", std::to_string(splits), "at most " + std::to_string(most_splits));
+  }
+  return cell;
 }
 
 CellBelief read_cells(ByteReader& from, const Model& model) {
-  const scene::Prior& prior = model.task->scene().prior;
+  const Task& task = *model.task;
+  const CellOptions& options = model.options.cells;
+  if (from.flag("grid of cells")) {
+    const CellBelief whole(task, options);
+    if (!whole.grid()) from.fail("grid of cells", "one", "a list, the prior having few cells");
+    Bitset members = read_set(from, whole.grid()->members().size(), "cells");
+    if (2 * members.count() <= options.most)
+      from.fail("grid of cells", std::to_string(members.count()) + " cells", "a list of so few");
+    return CellBelief::restored(task, options, std::move(members));
+  }
   std::vector<Cell> cells(from.count(6 * (8 + 1), "cells"));
   if (cells.empty()) from.fail("cells", "none", "at least one");
-  for (Cell& cell : cells) {
-    for (int d = 0; d < 6; ++d) {
-      cell.centre[d] = from.f64("cell centre");
-      if (!(std::abs(cell.centre[d] - prior.centre[d]) <= 0.5 * prior.width[d] + 1e-9))
-        from.fail("cell centre", std::to_string(cell.centre[d]), "a number inside the prior");
-    }
-    for (std::uint8_t& splits : cell.splits) {
-      splits = from.u8("cell splits");
-      if (splits > most_splits)
-        from.fail("cell splits", std::to_string(splits), "at most " + std::to_string(most_splits));
-    }
-  }
-  return CellBelief::restored(*model.task, model.options.cells, std::move(cells));
+  for (Cell& cell : cells) cell = read_cell(from, task.scene().prior);
+  return CellBelief::restored(task, options, std::move(cells));
 }
 
 void write_trace(ByteWriter& to, const Trace& trace) {
   to.u64(trace.action_id);
   to.u32(static_cast<std::uint32_t>(trace.kind));
   to.u8(trace.contact ? 1 : 0);
+  to.u8(trace.doubted ? 1 : 0);
   to.u64(trace.outcome);
   action::write_path(to, trace.path);
 }
@@ -137,6 +154,7 @@ Trace read_trace(ByteReader& from, const Task& task) {
   trace.action_id = from.u64("action of an observation");
   trace.kind = action::read_kind(from, "kind of an observation's action");
   trace.contact = from.flag("contact of an observation");
+  trace.doubted = from.flag("doubt of an observation");
   trace.outcome = static_cast<std::size_t>(from.u64("outcome of an observation"));
   trace.path = action::read_path(from, task.scene().robot->dof(), trace.contact ? 2 : 1, "path of an observation");
   trace.bodies = BodyPath(task.bodies(), trace.path);
@@ -170,7 +188,7 @@ Belief Belief::restore(std::shared_ptr<const Model> model, const std::uint8_t* b
   const Task& task = belief.task();
   belief.q_ = action::read_joints(from, task.scene().robot->dof(), "configuration");
   belief.health_ = from.flag("health") ? Health::contradicted : Health::good;
-  const std::size_t observations = from.count(8 + 4 + 1 + 8 + 8, "observations");
+  const std::size_t observations = from.count(8 + 4 + 2 + 8 + 8, "observations");
   for (std::size_t i = 0; i < observations; ++i) belief.history_.push_back(read_trace(from, task));
   const bool in_pose_phase = from.flag("phase");
   if (!in_pose_phase && belief.model_->options.kind == Kind::particles)

@@ -24,11 +24,7 @@ Model::Model(std::shared_ptr<const Task> t, const Options& o)
 Belief::Belief(std::shared_ptr<const Model> model, const JointVector& q) : model_(std::move(model)) {
   check_configuration(q, "q");
   q_ = q;
-  if (model_->options.kind == Kind::hierarchical)
-    voxels_.emplace(model_->voxels);
-  else
-    cells_.emplace(task(), model_->options.cells, [](const Pose&, double) { return true; });
-  if (voxels_ && voxels_->possibly_occupied().count() <= model_->options.delta) hand_over();
+  learn_anew();
 }
 
 void Belief::check_configuration(const JointVector& q, const char* argument) const {
@@ -58,40 +54,73 @@ void Belief::step(const Action& action, const Observation& observation) {
   next.q_ = action.path[stop.last_free];
   if (!observation.contact && stop.segment > stop.last_free) next.q_ = observation.q;
   next.history_.push_back(trace_of(task(), action, observation, stop));
-  bool possible = true;
-  if (next.voxels_) {
-    next.voxels_->update(task(), next.history_.back());
-    const std::size_t left = next.voxels_->possibly_occupied().count();
-    possible = left > 0 && (left > model_->options.delta || next.hand_over());
-  } else {
-    possible = next.cells_->update(task(), next.history_.back()) &&
-               next.cells_->refine(task(), next.history_, [&next](const CellBelief&) { return next.is_goal(); });
-  }
-  if (!possible) {
-    const JointVector q = next.q_;
-    next = *this;
-    next.q_ = q;
-    next.health_ = Health::contradicted;
-  }
+  if (!next.learn({&next.history_.back()})) next.doubt(*this);
   *this = std::move(next);
 }
 
-/// |PO| <= delta: the cells whose target may lie inside PO and that may have given every observation take over.
-bool Belief::hand_over() {
-  const auto keep = [this](const Pose& pose, double radius) {
-    return !voxels_->excludes(pose, radius) && std::all_of(history_.rbegin(), history_.rend(), [&](const Trace& trace) {
-      return may_reproduce(task(), trace, pose, radius);
-    });
-  };
-  cells_.emplace(task(), model_->options.cells, keep);
+/// From the prior and the history.
+bool Belief::learn_anew() {
+  cells_.reset();
   voxels_.reset();
-  return !cells_->cells().empty() && cells_->refine(task(), history_);
+  if (model_->options.kind == Kind::hierarchical)
+    voxels_.emplace(model_->voxels);
+  else
+    cells_.emplace(task(), model_->options.cells);
+  return learn(believed(history_));
+}
+
+/// Takes in traces, and hands over once |PO| <= delta. False if nothing is left then.
+bool Belief::learn(const std::vector<const Trace*>& traces) {
+  if (cells_)
+    return cells_->update(task(), traces) &&
+           cells_->refine(task(), history_, [this](const CellBelief&) { return is_goal(); });
+  for (const Trace* trace : traces) voxels_->update(task(), *trace);
+  const std::size_t left = voxels_->possibly_occupied().count();
+  return left > 0 && (left > model_->options.delta || hand_over());
+}
+
+/// The cells whose target may lie inside PO and that may have given every observation take over.
+bool Belief::hand_over() {
+  cells_.emplace(task(), model_->options.cells);
+  const auto outside = [this](const Pose& pose, double radius) { return voxels_->excludes(pose, radius); };
+  const bool possible = cells_->update(task(), believed(history_), outside) && cells_->refine(task(), history_);
+  voxels_.reset();
+  return possible;
+}
+
+/// The history contradicts itself. Of its traces one is doubted, instead of those doubted so far or, if no single one
+/// explains it, beside them: the one without which the most remains possible. At worst the last one, and what was known
+/// `before` it stands.
+void Belief::doubt(const Belief& before) {
+  health_ = Health::contradicted;
+  const auto best_without = [this](bool instead) {
+    std::optional<Belief> best;
+    double most_bits = -1.0;
+    for (std::size_t i = history_.size(); i-- > 0;) {
+      Belief without = *this;
+      for (Trace& trace : without.history_) trace.doubted = trace.doubted && !instead;
+      if (without.history_[i].doubted) continue;
+      without.history_[i].doubted = true;
+      if (!without.learn_anew()) continue;
+      if (const double bits = without.summary().bits; bits > most_bits) most_bits = bits, best = std::move(without);
+    }
+    return best;
+  };
+  std::optional<Belief> best = best_without(true);
+  if (!best && !believed(before.history_).empty()) best = best_without(false);
+  if (best) {
+    *this = std::move(*best);
+  } else {
+    history_.back().doubted = true;
+    voxels_ = before.voxels_;
+    cells_ = before.cells_;
+  }
 }
 
 bool Belief::is_goal() const {
   if (!cells_ || (!history_.empty() && history_.back().contact)) return false;
   const Pose base_from_tool = task().base_from_tool(q_);
-  return std::all_of(cells_->cells().begin(), cells_->cells().end(), [&](const Cell& cell) {
+  return cells_->all_of([&](const Cell& cell) {
     return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre), cells_->half_width(cell));
   });
 }
@@ -101,9 +130,7 @@ std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) co
   const double radius = model_->voxels->grid.half_diagonal();
   for (std::size_t i = 0; i < samples_per_pose * count && poses.size() < count; ++i) {
     const Pose pose = task().scene().prior.sample(rng);
-    if (std::all_of(history_.rbegin(), history_.rend(),
-                    [&](const Trace& trace) { return may_reproduce(task(), trace, pose, radius); }))
-      poses.push_back(pose);
+    if (may_reproduce(task(), history_, pose, radius)) poses.push_back(pose);
   }
   return poses;
 }
@@ -112,16 +139,14 @@ std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::
                                const support::Deadline& deadline) const {
   std::vector<Pose> poses;
   for (const Pose& pose : known)
-    if (std::all_of(history_.rbegin(), history_.rend(),
-                    [&](const Trace& trace) { return reproduces(task(), trace, pose); }))
-      poses.push_back(pose);
+    if (reproduces(task(), history_, pose)) poses.push_back(pose);
   std::vector<Pose> near;
   for (std::size_t i = 0; i < tries_per_pose * count && poses.size() < count && deadline.used_fraction() < 0.5; ++i) {
     const auto drawn = cells_->draw(task(), history_, rng);
     if (drawn) (drawn->exact ? poses : near).push_back(drawn->pose);
   }
   for (std::size_t i = 0; i < near.size() && poses.size() < count / least_share; ++i) poses.push_back(near[i]);
-  if (poses.empty()) poses.push_back(geometry::pose_from(cells_->cells()[cells_->draw_cell(rng)].centre));
+  if (poses.empty()) poses.push_back(geometry::pose_from(cells_->draw_cell(rng).centre));
   return poses;
 }
 

@@ -58,8 +58,9 @@ class Belief {
   /// not free.
   Belief(std::shared_ptr<const Model> model, const JointVector& q);
 
-  /// Takes in one observation. The configuration becomes the last free waypoint. An observation that contradicts
-  /// everything sets the health, and is left out. Throws as `locate`; then nothing has changed.
+  /// Takes in one observation. The configuration becomes the last free waypoint. Where it contradicts the others the
+  /// health says so, and as few as explain it are doubted from then on (`Trace::doubted`): the one without which the
+  /// most remains possible, which need not be the last. Throws as `locate`; then nothing has changed.
   void step(const Action& action, const Observation& observation);
 
   void set_configuration(const JointVector& q);
@@ -104,7 +105,10 @@ class Belief {
  private:
   explicit Belief(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
   void check_configuration(const JointVector& q, const char* argument) const;
+  bool learn(const std::vector<const Trace*>& traces);
+  bool learn_anew();
   bool hand_over();
+  void doubt(const Belief& before);
 
   std::shared_ptr<const Model> model_;
   JointVector q_;

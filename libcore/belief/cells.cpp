@@ -7,40 +7,37 @@
 namespace tactus::belief {
 CellBelief::CellBelief(const Task& task, const CellOptions& options) : options_(options) {
   for (const Vector3& v : task.scene().target.mesh.vertices) reach_ = std::max(reach_, v.norm());
-  const scene::Prior& prior = task.scene().prior;
-  for (int d = 0; d < 6; ++d) {
-    const double wanted = d < 3 ? options.position : options.angle;
-    const double count = std::max(1.0, std::ceil(prior.width[d] / wanted - 1e-9));
-    initial_half_[d] = 0.5 * prior.width[d] / count;
-  }
+  grid_.emplace(task.scene().prior, options.position, options.angle, options.most_at_first, reach_);
+  initial_half_ = grid_->half_width();
+  list_when_few();
 }
 
-CellBelief::CellBelief(const Task& task, const CellOptions& options,
-                       const std::function<bool(const Pose&, double)>& keep)
-    : CellBelief(task, options) {
-  const scene::Prior& prior = task.scene().prior;
-  std::array<int, 6> count{};
-  std::size_t total = 1;
-  for (int d = 0; d < 6; ++d) {
-    count[d] = initial_half_[d] > 0.0 ? static_cast<int>(std::lround(0.5 * prior.width[d] / initial_half_[d])) : 1;
-    total *= static_cast<std::size_t>(count[d]);
-  }
-  for (std::size_t i = 0; i < total; ++i) {
-    Cell cell;
-    std::size_t rest = i;
-    for (int d = 0; d < 6; ++d) {
-      const auto k = static_cast<double>(rest % static_cast<std::size_t>(count[d]));
-      rest /= static_cast<std::size_t>(count[d]);
-      cell.centre[d] = prior.centre[d] - 0.5 * prior.width[d] + initial_half_[d] * (2.0 * k + 1.0);
-    }
-    if (keep(geometry::pose_from(cell.centre), radius(cell))) cells_.push_back(cell);
-  }
+/// A list takes over once its cells may be split.
+void CellBelief::list_when_few() {
+  if (!grid_ || 2 * grid_->size() > options_.most) return;
+  cells_ = cells();
+  grid_.reset();
+}
+
+CellBelief CellBelief::restored(const Task& task, const CellOptions& options, Bitset members) {
+  CellBelief belief(task, options);
+  belief.grid_->assign(std::move(members));
+  return belief;
 }
 
 CellBelief CellBelief::restored(const Task& task, const CellOptions& options, std::vector<Cell> cells) {
   CellBelief belief(task, options);
+  belief.grid_.reset();
   belief.cells_ = std::move(cells);
   return belief;
+}
+
+std::vector<Cell> CellBelief::cells() const {
+  if (!grid_) return cells_;
+  std::vector<Cell> all;
+  all.reserve(size());
+  for_each([&](const Cell& cell) { all.push_back(cell); });
+  return all;
 }
 
 PoseVector CellBelief::half_width(const Cell& cell) const {
@@ -57,10 +54,31 @@ double CellBelief::volume(const Cell& cell) const {
   return product;
 }
 
-bool CellBelief::update(const Task& task, const Trace& trace) {
+double CellBelief::volume() const {
+  if (grid_) return static_cast<double>(size()) * volume(Cell{});
+  double total = 0.0;
+  for (const Cell& cell : cells_) total += volume(cell);
+  return total;
+}
+
+bool CellBelief::update(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes) {
+  if (grid_) {
+    CellGrid sifted = *grid_;
+    sifted.sift(task, traces, excludes);
+    if (sifted.size() == 0) return false;
+    grid_ = std::move(sifted);
+    list_when_few();
+    return true;
+  }
   std::vector<Cell> kept;
-  for (const Cell& cell : cells_)
-    if (may_reproduce(task, trace, geometry::pose_from(cell.centre), radius(cell))) kept.push_back(cell);
+  for (const Cell& cell : cells_) {
+    const Pose pose = geometry::pose_from(cell.centre);
+    const double r = radius(cell);
+    if (excludes && excludes(pose, r)) continue;
+    if (std::all_of(traces.begin(), traces.end(),
+                    [&](const Trace* trace) { return may_reproduce(task, *trace, pose, r); }))
+      kept.push_back(cell);
+  }
   if (kept.empty()) return false;
   cells_ = std::move(kept);
   return true;
@@ -83,25 +101,17 @@ void CellBelief::split(const Cell& cell, std::vector<Cell>& halves) const {
   }
 }
 
-bool CellBelief::possible(const Task& task, const std::vector<Trace>& history, const Cell& cell) const {
-  const Pose pose = geometry::pose_from(cell.centre);
-  const double r = radius(cell);
-  return std::all_of(history.rbegin(), history.rend(),
-                     [&](const Trace& trace) { return may_reproduce(task, trace, pose, r); });
-}
-
-std::size_t CellBelief::draw_cell(support::Rng& rng) const {
-  double total = 0.0;
-  for (const Cell& cell : cells_) total += volume(cell);
-  double left = rng.uniform() * total;
-  for (std::size_t i = 0; i < cells_.size(); ++i)
-    if ((left -= volume(cells_[i])) <= 0.0) return i;
-  return cells_.size() - 1;
+Cell CellBelief::draw_cell(support::Rng& rng) const {
+  if (grid_) return {grid_->centre(grid_->members().member(rng.below(grid_->size()))), {}};
+  double left = rng.uniform() * volume();
+  for (const Cell& cell : cells_)
+    if ((left -= volume(cell)) <= 0.0) return cell;
+  return cells_.back();
 }
 
 std::optional<Projection> CellBelief::draw(const Task& task, const std::vector<Trace>& history,
                                            support::Rng& rng) const {
-  const Cell& cell = cells_[draw_cell(rng)];
+  const Cell cell = draw_cell(rng);
   const PoseVector half = half_width(cell);
   PoseVector seed = cell.centre;
   for (int d = 0; d < 6; ++d) seed[d] += half[d] * rng.uniform(-1.0, 1.0);
@@ -110,7 +120,7 @@ std::optional<Projection> CellBelief::draw(const Task& task, const std::vector<T
 
 bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
                         const std::function<bool(const CellBelief&)>& enough) {
-  while (2 * cells_.size() <= options_.most && !(enough && enough(*this))) {
+  while (!grid_ && 2 * cells_.size() <= options_.most && !(enough && enough(*this))) {
     double coarsest = 0.0;
     for (const Cell& cell : cells_) coarsest = std::max(coarsest, radius(cell));
     if (coarsest <= options_.finest_radius) break;
@@ -122,7 +132,7 @@ bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
         kept.push_back(cell);
     }
     for (const Cell& cell : candidates)
-      if (possible(task, history, cell)) kept.push_back(cell);
+      if (may_reproduce(task, history, geometry::pose_from(cell.centre), radius(cell))) kept.push_back(cell);
     if (kept.empty()) return false;
     cells_ = std::move(kept);
   }

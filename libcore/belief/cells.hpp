@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
+#include <algorithm>
 #include <optional>
 
+#include "belief/cell_grid.hpp"
 #include "belief/projection.hpp"
 
 namespace tactus::belief {
-
-using geometry::PoseVector;
 
 /// A box of poses about a centre; each split halves one dimension.
 struct Cell {
@@ -18,28 +17,37 @@ struct Cell {
 };
 
 struct CellOptions {
-  double position = 0.01;         ///< initial full width, m
-  double angle = 0.1;             ///< initial full width, rad
-  std::size_t most = 4000;        ///< cells are split while there are fewer than half of these
-  double finest_radius = 0.0008;  ///< m: no cell with a smaller radius is split
+  double position = 0.004;               ///< initial full width, m
+  double angle = 0.06;                   ///< initial full width, rad
+  std::size_t most = 4000;               ///< cells are split while there are fewer than half of these
+  std::size_t most_at_first = 1u << 23;  ///< initial cells are widened until there are no more than these
+  double finest_radius = 0.0008;         ///< m: no cell with a smaller radius is split
 };
 
 /// Phase 2: a set of cells that covers every pose that may have given the observations. A cell goes only when no pose
-/// in it can have. A value.
+/// in it can have. As long as there are many they are those of a grid; then a list, in which they are split. A value.
 class CellBelief {
  public:
-  /// All cells of the prior that `keep` says may hold the truth (pose of the centre, radius). The grid covers the prior
-  /// exactly.
-  CellBelief(const Task& task, const CellOptions& options, const std::function<bool(const Pose&, double)>& keep);
+  using Excludes = CellGrid::Excludes;
 
-  const std::vector<Cell>& cells() const { return cells_; }
+  /// All cells of the prior.
+  CellBelief(const Task& task, const CellOptions& options);
+
+  std::size_t size() const { return grid_ ? grid_->size() : cells_.size(); }
+  std::vector<Cell> cells() const;  ///< O(cells), as the two below
+  template <typename Visit>
+  void for_each(Visit&& visit) const;
+  template <typename Test>
+  bool all_of(Test&& test) const;
+
   PoseVector half_width(const Cell& cell) const;
   double radius(const Cell& cell) const;  ///< m that a point of the target may be off the cell's centre
   double volume(const Cell& cell) const;  ///< product of the free dimensions' widths
+  double volume() const;                  ///< of all cells
 
-  /// Removes the cells that can't have given the trace. Returns whether any are left; if none would be, nothing is
-  /// changed.
-  bool update(const Task& task, const Trace& trace);
+  /// Removes the cells that can't have given every one of some traces, or that `excludes` says so of. Returns whether
+  /// any are left; if not, nothing is changed.
+  bool update(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes = {});
 
   /// Splits cells, the coarsest first, while they are few, and tests the new ones against the whole history. False (and
   /// unchanged from there on) if that would leave none. Stops early when `enough` says so.
@@ -50,21 +58,39 @@ class CellBelief {
   /// that led nowhere.
   std::optional<Projection> draw(const Task& task, const std::vector<Trace>& history, support::Rng& rng) const;
 
-  /// A cell's index, drawn by volume.
-  std::size_t draw_cell(support::Rng& rng) const;
+  /// A cell drawn by volume.
+  Cell draw_cell(support::Rng& rng) const;
 
+  const std::optional<CellGrid>& grid() const { return grid_; }  ///< none once the cells are a list
+
+  /// From the members of a grid, or from a list. Throws nothing: what they are must have been checked.
+  static CellBelief restored(const Task& task, const CellOptions& options, Bitset members);
   static CellBelief restored(const Task& task, const CellOptions& options, std::vector<Cell> cells);
 
  private:
-  CellBelief(const Task& task, const CellOptions& options);
   bool may_split(const Cell& cell) const { return radius(cell) > options_.finest_radius; }
   void split(const Cell& cell, std::vector<Cell>& halves) const;
-  bool possible(const Task& task, const std::vector<Trace>& history, const Cell& cell) const;
+  void list_when_few();
 
   CellOptions options_;
-  PoseVector initial_half_{};
   double reach_ = 0.0;  ///< m from the target's origin to its farthest vertex
-  std::vector<Cell> cells_;
+  PoseVector initial_half_{};
+  std::optional<CellGrid> grid_;
+  std::vector<Cell> cells_;  ///< without a grid
 };
+
+template <typename Visit>
+void CellBelief::for_each(Visit&& visit) const {
+  all_of([&](const Cell& cell) {
+    visit(cell);
+    return true;
+  });
+}
+
+template <typename Test>
+bool CellBelief::all_of(Test&& test) const {
+  if (!grid_) return std::all_of(cells_.begin(), cells_.end(), test);
+  return grid_->members().all_of([&](std::size_t member) { return test(Cell{grid_->centre(member), {}}); });
+}
 
 }  // namespace tactus::belief

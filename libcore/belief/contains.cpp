@@ -6,7 +6,7 @@
 namespace tactus::belief {
 namespace {
 
-constexpr double tolerance = 1e-9;  // m
+constexpr double tolerance = 1e-9;  // m and rad
 
 /// Whether every voxel centre inside the target is possibly occupied.
 bool fits(const VoxelBelief& voxels, const geometry::DistanceField& field, const Pose& base_from_target) {
@@ -29,9 +29,9 @@ bool fits(const VoxelBelief& voxels, const geometry::DistanceField& field, const
 bool Belief::contains(const Pose& base_from_target) const {
   if (!task().scene().prior.contains(base_from_target)) return false;
   if (!cells_) return fits(*voxels_, task().target_contact().field(), base_from_target);
-  return std::any_of(cells_->cells().begin(), cells_->cells().end(), [&](const Cell& cell) {
-    return scene::box_holds(cell.centre, cells_->half_width(cell), base_from_target);
-  });
+  if (cells_->grid()) return cells_->grid()->holds(base_from_target, tolerance);
+  return !cells_->all_of(
+      [&](const Cell& cell) { return !scene::box_holds(cell.centre, cells_->half_width(cell), base_from_target); });
 }
 
 }  // namespace tactus::belief

@@ -49,6 +49,7 @@ Demands demands_of(const Task& task, const std::vector<Trace>& history, const Po
   const Pose pose = geometry::pose_from(v);
   Demands demands;
   for (const Trace& trace : history) {
+    if (trace.doubted) continue;
     const std::size_t last = trace.bodies.size() - 1;
     if (trace.contact) {
       const contact::Nearest at_stop = target.nearest(trace.bodies, last, pose);
@@ -95,8 +96,7 @@ std::optional<Projection> projected(const Task& task, const std::vector<Trace>& 
   const double lever = 0.5 * geometry::diameter(task.scene().target.mesh);
   for (int step = 0; step < steps; ++step) {
     const Pose pose = geometry::pose_from(seed);
-    if (std::all_of(history.rbegin(), history.rend(),
-                    [&](const Trace& trace) { return reproduces(task, trace, pose); })) {
+    if (reproduces(task, history, pose)) {
       if (task.scene().prior.contains(seed)) return Projection{pose, true};
       return std::nullopt;
     }

@@ -23,25 +23,24 @@ double tolerance_volume(const Task& task) {
 /// Weighted circular mean of the angles, arithmetic mean of the positions.
 Vector6 mean_of(const CellBelief& cells, double total) {
   Vector6 sum = Vector6::Zero(), sine = Vector6::Zero(), cosine = Vector6::Zero();
-  for (const Cell& cell : cells.cells()) {
+  cells.for_each([&](const Cell& cell) {
     const double weight = cells.volume(cell) / total;
     for (int d = 0; d < 6; ++d) {
       sum[d] += weight * cell.centre[d];
       sine[d] += weight * std::sin(cell.centre[d]);
       cosine[d] += weight * std::cos(cell.centre[d]);
     }
-  }
+  });
   for (int d = 3; d < 6; ++d) sum[d] = scene::nearest_angle(std::atan2(sine[d], cosine[d]), sum[d]);
   return sum;
 }
 
 void describe_cells(const CellBelief& cells, const Task& task, Summary& summary) {
-  double total = 0.0;
-  for (const Cell& cell : cells.cells()) total += cells.volume(cell);
+  const double total = cells.volume();
   const Vector6 mean = mean_of(cells, total);
   Vector6 low = Vector6::Constant(1e300), high = -low;
   Matrix6 covariance = Matrix6::Zero();
-  for (const Cell& cell : cells.cells()) {
+  cells.for_each([&](const Cell& cell) {
     Vector6 off, half;
     for (int d = 0; d < 6; ++d) {
       off[d] = (d < 3 ? cell.centre[d] : scene::nearest_angle(cell.centre[d], mean[d])) - mean[d];
@@ -50,8 +49,8 @@ void describe_cells(const CellBelief& cells, const Task& task, Summary& summary)
     low = low.cwiseMin(off - half);
     high = high.cwiseMax(off + half);
     covariance += cells.volume(cell) / total * (off * off.transpose() + Matrix6(half.cwiseAbs2().asDiagonal()) / 3.0);
-  }
-  summary.cells = cells.cells().size();
+  });
+  summary.cells = cells.size();
   summary.bits = std::log2(std::max(1.0, total / tolerance_volume(task)));
   for (int d = 0; d < 6; ++d) summary.mean[d] = mean[d], summary.extent[d] = high[d] - low[d];
   std::copy(covariance.data(), covariance.data() + 36, summary.covariance.begin());

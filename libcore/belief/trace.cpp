@@ -131,6 +131,13 @@ Stop locate(const Task& task, const Action& action, const Observation& observati
   return best;
 }
 
+std::vector<const Trace*> believed(const std::vector<Trace>& history) {
+  std::vector<const Trace*> traces;
+  for (const Trace& trace : history)
+    if (!trace.doubted) traces.push_back(&trace);
+  return traces;
+}
+
 std::uint64_t fingerprint(const std::vector<Trace>& history, std::size_t count) {
   std::uint64_t print = support::mix(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -167,13 +174,35 @@ bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_targ
   return !first || *first == last;
 }
 
-bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius) {
+bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius,
+                   std::size_t from) {
   const contact::TargetContact& target = task.target_contact();
   const std::size_t last = trace.bodies.size() - 1;
   const double sound = radius + target.margin();
   if (trace.contact && !target.within(trace.bodies, last, base_from_target, sound)) return false;
-  const auto first = target.first_certain_contact(trace.bodies, base_from_target, sound, 0);
+  const auto first = target.first_certain_contact(trace.bodies, base_from_target, sound, from);
   return !first || (trace.contact && *first == last);
+}
+
+bool reproduces(const Task& task, const std::vector<Trace>& history, const Pose& base_from_target) {
+  return std::all_of(history.rbegin(), history.rend(),
+                     [&](const Trace& trace) { return trace.doubted || reproduces(task, trace, base_from_target); });
+}
+
+bool may_reproduce(const Task& task, const std::vector<Trace>& history, const Pose& base_from_target, double radius) {
+  return std::all_of(history.rbegin(), history.rend(), [&](const Trace& trace) {
+    return trace.doubted || may_reproduce(task, trace, base_from_target, radius);
+  });
+}
+
+Fit fit(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t& from) {
+  const contact::TargetContact& target = task.target_contact();
+  if (!trace.contact) {
+    const auto first = target.first_within(trace.bodies, base_from_target, radius + target.margin(), from);
+    if (!first) return Fit::all;
+    from = *first;
+  }
+  return may_reproduce(task, trace, base_from_target, radius, from) ? Fit::some : Fit::none;
 }
 
 }  // namespace tactus::belief

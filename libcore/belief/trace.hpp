@@ -42,9 +42,13 @@ struct Trace {
   bool contact = false;
   std::size_t outcome = 0;  ///< as predicted by a planner: the waypoint of the action at the end of the segment in
                             ///< which it stopped; the path's size without contact
+  bool doubted = false;     ///< it contradicts the others, and is left out: a contact that was none, for instance
   JointPath path;
   BodyPath bodies;
 };
+
+/// The traces that are not doubted.
+std::vector<const Trace*> believed(const std::vector<Trace>& history);
 
 /// Of what was done and seen, in order: equal for beliefs of one model that went through the same.
 std::uint64_t fingerprint(const std::vector<Trace>& history, std::size_t count);
@@ -54,8 +58,19 @@ Trace trace_of(const Task& task, const Action& action, const Observation& observ
 /// Whether a target at exactly this pose would have given the trace.
 bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_target);
 
-/// Whether some pose at which no point of the target is farther than `radius` from `base_from_target` may have given
-/// the trace. Errs to true only.
-bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius);
+/// Whether some pose at which no point of the target is farther than `radius` from where it is at `base_from_target`
+/// may have given the trace. Errs to true only. None of them may touch the robot before the waypoint `from`.
+bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius,
+                   std::size_t from = 0);
+
+/// The same of every trace of a history that is not doubted.
+bool reproduces(const Task& task, const std::vector<Trace>& history, const Pose& base_from_target);
+bool may_reproduce(const Task& task, const std::vector<Trace>& history, const Pose& base_from_target, double radius);
+
+/// Of the poses of such a set, none can have given a trace, perhaps some, or every one would have.
+enum class Fit { none, some, all };
+
+/// As `may_reproduce`; errs to `some` only. `from` is raised to what is found out.
+Fit fit(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t& from);
 
 }  // namespace tactus::belief

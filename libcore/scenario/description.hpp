@@ -69,7 +69,7 @@ struct BeliefDescription {
   std::string kind = "hierarchical";  ///< or "particles"
   double voxel_size = 0.01;           ///< m
   int delta = 3000;                   ///< number of voxels at which they are handed over to cells of poses
-  Resolution cell{0.01, 0.1};         ///< of those cells at first
+  Resolution cell{0.004, 0.06};       ///< of those cells at first
   int max_cells = 8000;
   int particles = 200;                    ///< poses drawn for planning
   std::string likelihood = "calibrated";  ///< of a contact on voxels; or "paper"

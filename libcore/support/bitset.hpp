@@ -28,6 +28,13 @@ class Bitset {
   std::size_t count() const;
   bool none() const;
 
+  /// Of the members begin .. end - 1.
+  bool any_in(std::size_t begin, std::size_t end) const;
+  void reset_in(std::size_t begin, std::size_t end);
+
+  /// The member that has `rank` members before it; there must be more than `rank`. O(words).
+  std::size_t member(std::size_t rank) const;
+
   Bitset& operator&=(const Bitset& other);
   Bitset& and_not(const Bitset& other);
   bool operator==(const Bitset&) const = default;
@@ -41,6 +48,15 @@ class Bitset {
     for (std::size_t w = 0; w < words_.size(); ++w)
       for (std::uint64_t rest = words_[w]; rest != 0; rest &= rest - 1)
         visit(w * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
+  }
+
+  /// Whether `test(i)` holds for every member; ascending, up to the first for which it does not.
+  template <typename Test>
+  bool all_of(Test&& test) const {
+    for (std::size_t w = 0; w < words_.size(); ++w)
+      for (std::uint64_t rest = words_[w]; rest != 0; rest &= rest - 1)
+        if (!test(w * 64 + static_cast<std::size_t>(std::countr_zero(rest)))) return false;
+    return true;
   }
 
   const std::vector<std::uint64_t>& words() const { return words_; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "belief/plain_world.hpp"
 
 /// What holds of cells whatever is observed.
@@ -27,6 +29,14 @@ bool holds(const CellBelief& cells, const Cell& cell, const PoseVector& v) {
   return true;
 }
 
+int holding(const CellBelief& cells, const PoseVector& v) {
+  int found = 0;
+  cells.for_each([&](const Cell& cell) { found += holds(cells, cell, v); });
+  return found;
+}
+
+Cell random_cell(const CellBelief& cells, Rng& rng) { return cells.cells()[rng.below(cells.size())]; }
+
 /// A pose in the cell, its corners included.
 PoseVector pose_in(const CellBelief& cells, const Cell& cell, Rng& rng) {
   PoseVector v = cell.centre;
@@ -34,6 +44,12 @@ PoseVector pose_in(const CellBelief& cells, const Cell& cell, Rng& rng) {
   for (std::size_t d = 0; d < 6; ++d)
     v[d] += half[d] * (rng.below(2) == 0 ? rng.uniform(-1.0, 1.0) : rng.below(2) == 0 ? -1.0 : 1.0);
   return v;
+}
+
+double target_reach() {
+  double reach = 0.0;
+  for (const Vector3& v : task().scene().target.mesh.vertices) reach = std::max(reach, v.norm());
+  return reach;
 }
 
 /// A few observed actions; calls `after` with the belief behind each.
@@ -52,16 +68,14 @@ void observe(std::uint64_t seed, int actions, After after) {
 }
 
 TEST(Cells, CoverThePriorExactly) {
-  const CellBelief cells(task(), {}, [](const Pose&, double) { return true; });
+  const CellBelief cells(task(), {});
   Rng rng(3);
   double volume = 0.0;
   for (const Cell& cell : cells.cells()) volume += cells.volume(cell);
   EXPECT_NEAR(volume, 0.04 * 0.04 * 0.4, 1e-12);
   for (int i = 0; i < 500; ++i) {
     const PoseVector v = random_pose(task().scene().prior, rng);
-    const auto in = std::count_if(cells.cells().begin(), cells.cells().end(),
-                                  [&](const Cell& cell) { return holds(cells, cell, v); });
-    EXPECT_EQ(in, 1);
+    EXPECT_EQ(holding(cells, v), 1);
   }
 }
 
@@ -70,7 +84,7 @@ TEST(Cells, RadiusBoundsHowFarAPointOfTheTargetIsOff) {
   observe(4, 3, [&](const Belief& belief, const PoseVector&) {
     const CellBelief& cells = belief.cells();
     for (int i = 0; i < 300; ++i) {
-      const Cell& cell = cells.cells()[rng.below(cells.cells().size())];
+      const Cell cell = random_cell(cells, rng);
       const Pose centre = geometry::pose_from(cell.centre), other = geometry::pose_from(pose_in(cells, cell, rng));
       for (const Vector3& p : task().scene().target.mesh.vertices)
         ASSERT_LE((centre * p - other * p).norm(), cells.radius(cell) + 1e-12);
@@ -80,13 +94,14 @@ TEST(Cells, RadiusBoundsHowFarAPointOfTheTargetIsOff) {
 
 TEST(Cells, NeverWiden) {
   for (const std::uint64_t seed : {11u, 12u, 13u}) {
-    CellBelief before(task(), model()->options.cells, [](const Pose&, double) { return true; });
+    CellBelief before(task(), model()->options.cells);
     observe(seed, 8, [&](const Belief& belief, const PoseVector&) {
       const CellBelief& after = belief.cells();
+      const std::vector<Cell> parents = before.cells();
       for (const Cell& cell : after.cells()) {
-        const auto parent = std::find_if(before.cells().begin(), before.cells().end(),
-                                         [&](const Cell& c) { return holds(before, c, cell.centre); });
-        ASSERT_NE(parent, before.cells().end());
+        const auto parent =
+            std::find_if(parents.begin(), parents.end(), [&](const Cell& c) { return holds(before, c, cell.centre); });
+        ASSERT_NE(parent, parents.end());
         for (std::size_t d = 0; d < 6; ++d) ASSERT_GE(cell.splits[d], parent->splits[d]);
       }
       before = after;
@@ -99,10 +114,7 @@ TEST(Cells, AreDisjoint) {
   observe(15, 8, [&](const Belief& belief, const PoseVector&) {
     const CellBelief& cells = belief.cells();
     for (int i = 0; i < 50; ++i) {
-      const PoseVector v = cells.cells()[rng.below(cells.cells().size())].centre;
-      const auto in = std::count_if(cells.cells().begin(), cells.cells().end(),
-                                    [&](const Cell& cell) { return holds(cells, cell, v); });
-      ASSERT_EQ(in, 1);
+      ASSERT_EQ(holding(cells, random_cell(cells, rng).centre), 1);
     }
   });
 }
@@ -111,7 +123,7 @@ TEST(Cells, MayReproduceAtEveryResolutionWhatAPoseInThemDid) {
   Rng rng(6);
   observe(16, 10, [&](const Belief& belief, const PoseVector& truth) {
     const belief::Trace& trace = belief.history().back();
-    CellBelief cells(task(), {.most = 0}, [](const Pose&, double) { return true; });
+    CellBelief cells(task(), {.most = 0});
     for (int halvings = 0; halvings < 6; ++halvings) {
       Cell cell;
       for (std::size_t d = 0; d < 6; ++d) {
@@ -159,13 +171,80 @@ TEST(Cells, DrawnPosesLieInCellsAndReproduceTheHistoryUnlessTheyAreHardToFind) {
   EXPECT_GT(full, 0);
 }
 
+/// Boxes of cells are asked before cells: what that drops beyond the cells' own answers must hold no pose that would
+/// have given the trace, and nothing that a cell's own answer drops may stay.
+TEST(Cells, OfAGridAreSiftedAsOneByOne) {
+  Rng rng(10);
+  int dropped = 0, kept = 0, beyond = 0;
+  for (const std::uint64_t seed : {31u, 32u, 33u, 34u})
+    observe(seed, 4, [&](const Belief& belief, const PoseVector&) {
+      const belief::Trace& trace = belief.history().back();
+      const belief::CellGrid all(task().scene().prior, 0.005, 0.1, 1u << 20, target_reach());
+      belief::CellGrid sifted = all;
+      sifted.sift(task(), {&trace});
+      const double radius = scene::cell_radius(all.half_width(), target_reach());
+      all.members().for_each([&](std::size_t cell) {
+        const bool may = belief::may_reproduce(task(), trace, geometry::pose_from(all.centre(cell)), radius);
+        ++(may ? kept : dropped);
+        if (!may) {
+          EXPECT_FALSE(sifted.members().test(cell));
+        }
+        if (!may || sifted.members().test(cell)) return;
+        ++beyond;
+        for (int i = 0; i < 20; ++i) {
+          PoseVector v = all.centre(cell);
+          for (std::size_t d = 0; d < 6; ++d) v[d] += all.half_width()[d] * rng.uniform(-1.0, 1.0);
+          EXPECT_FALSE(belief::reproduces(task(), trace, geometry::pose_from(v)));
+        }
+      });
+      EXPECT_EQ(sifted.size(), sifted.members().count());
+    });
+  EXPECT_GT(dropped, 100);
+  EXPECT_GT(kept, 100);
+  EXPECT_LT(beyond, kept / 20);
+}
+
+TEST(Cells, OfAGridHoldAPoseAsOneByOne) {
+  Rng rng(12);
+  scene::Prior prior;
+  prior.centre = {0.1, 0.2, 0.3, 0.4, 1.2, 3.0};
+  prior.width = {0.1, 0.0, 0.2, 2.0 * std::numbers::pi, 1.0, 1.5};
+  belief::CellGrid grid(prior, 0.03, 0.3, 1u << 20, 0.1);
+  support::Bitset some(grid.members().size());
+  for (std::size_t i = 0; i < some.size(); ++i)
+    if (rng.below(2) == 0) some.set(i);
+  grid.assign(some);
+  int held = 0;
+  for (int i = 0; i < 1000; ++i) {
+    PoseVector v = random_pose(prior, rng);
+    if (i % 3 == 0) v[4] = 0.5 * std::numbers::pi;
+    if (i % 4 == 0) v[3] = prior.centre[3] + (i % 8 == 0 ? 1 : -1) * std::numbers::pi;
+    if (i % 5 == 0) v[2] = prior.centre[2] + 0.1 * (i % 2);
+    const Pose pose = geometry::pose_from(v);
+    const bool plainly = !grid.members().all_of(
+        [&](std::size_t member) { return !scene::box_holds(grid.centre(member), grid.half_width(), pose, 1e-9); });
+    ASSERT_EQ(grid.holds(pose, 1e-9), plainly) << i;
+    held += plainly;
+  }
+  EXPECT_GT(held, 200);
+  EXPECT_LT(held, 900);
+}
+
+TEST(Cells, OfAGridAreWidenedUntilTheyAreFewEnough) {
+  const scene::Prior& prior = task().scene().prior;
+  const belief::CellGrid grid(prior, 0.0001, 0.001, 5000, target_reach());
+  EXPECT_LE(grid.size(), 5000u);
+  EXPECT_GT(grid.size(), 2500u);
+  EXPECT_NEAR(grid.half_width()[3] / grid.half_width()[1], 10.0, 2.0);
+}
+
 TEST(Cells, AreLeftAloneWhenAnObservationLeavesNone) {
-  CellBelief cells(task(), model()->options.cells, [](const Pose&, double) { return true; });
+  CellBelief cells(task(), model()->options.cells);
   const std::vector<Cell> before = cells.cells();
   const action::Action action = action_along(task(), {joints({0.30, 0, 0, 0, 0, 0}), joints({0.302, 0, 0, 0, 0, 0})});
   const belief::Observation impossible{true, action.path.back()};
   const auto trace = belief::trace_of(task(), action, impossible, belief::locate(task(), action, impossible));
-  EXPECT_FALSE(cells.update(task(), trace));
+  EXPECT_FALSE(cells.update(task(), {&trace}));
   EXPECT_EQ(cells.cells(), before);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
+#include <numbers>
 
 #include "action/probes.hpp"
 #include "bench/shelf_lattice.hpp"
@@ -70,28 +71,52 @@ std::vector<Row> split(const Options& options) {
   return {row, successor};
 }
 
-/// One observation of a sweep that felt nothing, taken in by all cells of the shelf's prior.
-std::vector<Row> cells(const Options&) {
+/// One observation of a sweep, taken in by every cell of the shelf's prior at 2 mm and 3 degrees: one by one (a random
+/// share of them) and in boxes.
+Row observed(const action::Task& task, const belief::Trace& trace, const char* work, const Options& options) {
+  double reach = 0.0;
+  for (const geometry::Vector3& v : task.scene().target.mesh.vertices) reach = std::max(reach, v.norm());
+  const belief::CellGrid all(task.scene().prior, 0.002, std::numbers::pi / 60.0, std::size_t{1} << 25, reach);
+  const double radius = scene::cell_radius(all.half_width(), reach);
+  Row row;
+  row.work = work;
+  row.pairs = all.size();
+  row.n = trace.path.size() - 1;
+  belief::CellGrid left = all;
+  row.ours_s = thread_seconds("ours", seconds, [&] {
+    left = all;
+    left.sift(task, {&trace});
+  });
+  support::Rng rng(options.seed);
+  std::vector<std::size_t> share;
+  for (int i = 0; i < 20'000; ++i) share.push_back(rng.below(all.size()));
+  std::size_t agreeing = 0;
+  const double asked = thread_seconds("baseline", seconds, [&] {
+    agreeing = 0;
+    for (const std::size_t cell : share)
+      agreeing += belief::may_reproduce(task, trace, geometry::pose_from(all.centre(cell)), radius) ==
+                  left.members().test(cell);
+  });
+  row.baseline_s = asked * static_cast<double>(all.size()) / static_cast<double>(share.size());
+  row.compared = share.size();
+  row.agreeing = agreeing;
+  row.memory_mib = resident_mib();
+  row.note = std::to_string(left.size()) + " cells are left; baseline: each cell on its own, " +
+             std::to_string(share.size()) + " of them, " + std::to_string(agreeing) + " as in boxes";
+  return row;
+}
+
+std::vector<Row> cells(const Options& options) {
   const auto shelf = scenario::load(TACTUS_SOURCE_DIR "/examples/scenarios/shelf_3d.yaml");
   const action::Task& task = *shelf->task;
-  const action::MotionPtr motion = action::probes(task, task.frame().region, task.home(), 9)[4];
-  const belief::CellBelief all(task, {}, [](const Pose&, double) { return true; });
-  belief::Trace trace;
-  trace.path = motion->path;
-  trace.bodies = motion->bodies;
-  Row row;
-  row.work = "cells";
-  row.pairs = all.cells().size();
-  row.n = motion->path.size() - 1;
-  std::size_t left = 0;
-  row.ours_s = thread_seconds("ours", seconds, [&] {
-    belief::CellBelief belief = all;
-    belief.update(task, trace);
-    left = belief.cells().size();
-  });
-  row.memory_mib = resident_mib();
-  row.note = "a sweep of the shelf that felt nothing, cells of 1 cm and 0.1 rad; " + std::to_string(left) + " are left";
-  return {row};
+  const action::MotionPtr motion = action::probes(task, task.frame().region, task.home(), 9)[5];
+  belief::Trace free, touched;
+  free.path = motion->path;
+  free.bodies = motion->bodies;
+  touched.contact = true;
+  touched.path.assign(free.path.begin(), free.path.begin() + static_cast<std::ptrdiff_t>(free.path.size() / 2));
+  touched.bodies = contact::BodyPath(task.bodies(), touched.path);
+  return {observed(task, free, "step-free", options), observed(task, touched, "step-contact", options)};
 }
 
 }  // namespace

@@ -39,6 +39,26 @@ TEST(Bitset, AgreesWithASet) {
     }
 }
 
+TEST(Bitset, RangesAndRanksAgreeWithASet) {
+  Rng rng(2);
+  for (const std::size_t size : {1u, 64u, 65u, 200u, 1000u})
+    for (int i = 0; i < 100; ++i) {
+      std::set<std::size_t> members = random_members(size, rng);
+      Bitset set = bits(size, members);
+      std::size_t rank = 0;
+      for (const std::size_t member : members) EXPECT_EQ(set.member(rank++), member);
+      const std::size_t limit = rng.below(size + 1);
+      EXPECT_EQ(set.all_of([&](std::size_t member) { return member < limit; }),
+                members.empty() || *members.rbegin() < limit);
+      const std::size_t begin = rng.below(size + 1), end = begin + rng.below(size + 1 - begin);
+      const auto low = members.lower_bound(begin), high = members.lower_bound(end);
+      EXPECT_EQ(set.any_in(begin, end), low != high);
+      members.erase(low, high);
+      set.reset_in(begin, end);
+      EXPECT_EQ(set, bits(size, members));
+    }
+}
+
 TEST(Bitset, FullOnesHaveNoMembersBeyondTheirSize) {
   for (const std::size_t size : {0u, 1u, 63u, 64u, 65u, 130u}) {
     Bitset full(size, true);

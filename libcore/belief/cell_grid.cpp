@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "belief/cell_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tactus::belief {
+namespace {
+
+constexpr double gimbal_lock = 1e-6;  // of the pitch's cosine: roll and yaw show no more than their sum
+constexpr double widening = 1.02;     // of cells, until there are few enough
+
+std::array<int, 6> counts(const scene::Prior& prior, double position, double angle) {
+  std::array<int, 6> count{};
+  for (int d = 0; d < 6; ++d)
+    count[d] = std::max(1, static_cast<int>(std::ceil(prior.width[d] / (d < 3 ? position : angle) - 1e-9)));
+  return count;
+}
+
+double product(const std::array<int, 6>& count) {
+  double all = 1.0;
+  for (const int n : count) all *= n;
+  return all;
+}
+
+}  // namespace
+
+/// Halves boxes until they are decided.
+class CellGrid::Sieve {
+ public:
+  Sieve(CellGrid& grid, const Task& task, const Excludes& excludes) : grid_(grid), task_(task), excludes_(excludes) {}
+
+  void sift(const Box& box, std::vector<Claim> claims, bool may_exclude) {
+    if (!grid_.any_in(box)) return;
+    PoseVector centre, half;
+    bool is_cell = true;
+    for (int d = 0; d < 6; ++d) {
+      half[d] = grid_.half_[d] * (box.high[d] - box.low[d]);
+      centre[d] = grid_.corner_[d] + grid_.half_[d] * (box.low[d] + box.high[d]);
+      is_cell = is_cell && box.high[d] - box.low[d] == 1;
+    }
+    const double radius = scene::cell_radius(half, grid_.reach_);
+    const Pose pose = geometry::pose_from(centre);
+    if ((may_exclude && excludes_ && excludes_(pose, radius)) || !agree(claims, pose, radius, is_cell))
+      return grid_.drop(box);
+    if (is_cell || (claims.empty() && !(may_exclude && excludes_))) return;
+    for (const Box& part : halves(box, half)) sift(part, claims, may_exclude);
+  }
+
+ private:
+  /// Takes out the claims that every pose would meet; false if one is met by none.
+  bool agree(std::vector<Claim>& claims, const Pose& pose, double radius, bool is_cell) const {
+    for (auto claim = claims.begin(); claim != claims.end();) {
+      const Fit found = is_cell
+                            ? (may_reproduce(task_, *claim->trace, pose, radius, claim->from) ? Fit::some : Fit::none)
+                            : fit(task_, *claim->trace, pose, radius, claim->from);
+      if (found == Fit::none) return false;
+      claim = found == Fit::all ? claims.erase(claim) : claim + 1;
+    }
+    return true;
+  }
+
+  /// Along the dimension that moves the target's points most.
+  std::array<Box, 2> halves(const Box& box, const PoseVector& half) const {
+    int widest = 0;
+    double most = -1.0;
+    for (int d = 0; d < 6; ++d) {
+      const double moves = d < 3 ? half[d] : half[d] * grid_.reach_;
+      if (box.high[d] - box.low[d] > 1 && moves > most) most = moves, widest = d;
+    }
+    std::array<Box, 2> parts{box, box};
+    parts[0].high[widest] = parts[1].low[widest] = (box.low[widest] + box.high[widest]) / 2;
+    return parts;
+  }
+
+  CellGrid& grid_;
+  const Task& task_;
+  const Excludes& excludes_;
+};
+
+CellGrid::CellGrid(const scene::Prior& prior, double position, double angle, std::size_t most, double reach)
+    : reach_(reach) {
+  count_ = counts(prior, position, angle);
+  while (product(count_) > static_cast<double>(most)) count_ = counts(prior, position *= widening, angle *= widening);
+  for (int d = 0; d < 6; ++d) {
+    corner_[d] = prior.centre[d] - 0.5 * prior.width[d];
+    half_[d] = 0.5 * prior.width[d] / count_[d];
+  }
+  while (row_ > 0 && count_[row_] == 1) --row_;
+  left_ = static_cast<std::size_t>(product(count_));
+  members_ = Bitset(left_, true);
+}
+
+void CellGrid::assign(Bitset members) {
+  members_ = std::move(members);
+  left_ = members_.count();
+}
+
+PoseVector CellGrid::centre(std::size_t member) const {
+  PoseVector v;
+  for (int d = 5; d >= 0; --d) {
+    const auto n = static_cast<std::size_t>(count_[d]);
+    v[d] = corner_[d] + half_[d] * (2.0 * static_cast<double>(member % n) + 1.0);
+    member /= n;
+  }
+  return v;
+}
+
+/// Calls `row(begin, end)` for each row of a box, until it returns false.
+template <typename Row>
+void CellGrid::for_each_row(const Box& box, Row&& row) const {
+  std::array<int, 6> at = box.low;
+  for (;;) {
+    std::size_t begin = 0;
+    for (int d = 0; d < 6; ++d) begin = begin * static_cast<std::size_t>(count_[d]) + static_cast<std::size_t>(at[d]);
+    if (!row(begin, begin + static_cast<std::size_t>(box.high[row_] - box.low[row_]))) return;
+    int d = row_ - 1;
+    while (d >= 0 && ++at[d] == box.high[d]) at[d] = box.low[d], --d;
+    if (d < 0) return;
+  }
+}
+
+bool CellGrid::any_in(const Box& box) const {
+  bool any = false;
+  for_each_row(box, [&](std::size_t begin, std::size_t end) {
+    any = members_.any_in(begin, end);
+    return !any;
+  });
+  return any;
+}
+
+/// The numbers as they are: no other turns are tried.
+bool CellGrid::any_near(const PoseVector& v, double tolerance) const {
+  Box box;
+  for (int d = 0; d < 6; ++d) {
+    const double off = v[d] - corner_[d], width = 2.0 * half_[d];
+    if (width <= 0.0) {
+      if (std::abs(off) > tolerance) return false;
+      box.high[d] = 1;
+      continue;
+    }
+    box.low[d] = static_cast<int>(std::clamp(std::floor((off - tolerance) / width), 0.0, 1.0 * count_[d]));
+    box.high[d] = static_cast<int>(std::clamp(std::floor((off + tolerance) / width) + 1.0, 0.0, 1.0 * count_[d]));
+    if (box.low[d] >= box.high[d]) return false;
+  }
+  return any_in(box);
+}
+
+bool CellGrid::holds(const Pose& base_from_target, double tolerance) const {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  PoseVector usual = geometry::pose_vector(base_from_target);
+  if (std::abs(std::cos(usual[4])) < gimbal_lock)
+    return !members_.all_of(
+        [&](std::size_t member) { return !scene::box_holds(centre(member), half_, base_from_target, tolerance); });
+  PoseVector over = usual;
+  over[3] += std::numbers::pi, over[4] = std::numbers::pi - usual[4], over[5] += std::numbers::pi;
+  for (PoseVector v : {usual, over}) {
+    for (int d = 3; d < 6; ++d) v[d] = scene::nearest_angle(v[d], corner_[d] + half_[d] * count_[d]);
+    for (int turns = 0; turns < 27; ++turns) {
+      PoseVector turned = v;
+      turned[3] += turn * (turns % 3 - 1), turned[4] += turn * (turns / 3 % 3 - 1), turned[5] += turn * (turns / 9 - 1);
+      if (any_near(turned, tolerance)) return true;
+    }
+  }
+  return false;
+}
+
+void CellGrid::drop(const Box& box) {
+  for_each_row(box, [&](std::size_t begin, std::size_t end) {
+    members_.reset_in(begin, end);
+    return true;
+  });
+}
+
+void CellGrid::sift(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes) {
+  std::vector<Claim> claims;
+  for (const Trace* trace : traces) claims.push_back({trace, 0});
+  std::stable_partition(claims.begin(), claims.end(), [](const Claim& claim) { return claim.trace->contact; });
+  Sieve(*this, task, excludes).sift({{}, count_}, claims, true);
+  left_ = members_.count();
+}
+
+}  // namespace tactus::belief
