@@ -28,10 +28,13 @@ double reach_of(const Mesh& mesh) {
 }  // namespace
 
 bool Scene::is_seated(const Pose& base_from_tool, const Pose& base_from_target, const PoseVector& half) const {
-  const Pose wanted = seated(base_from_target);
-  const double shift = cell_radius(half, target.target_from_seated.translation().norm());
-  return (wanted.translation() - base_from_tool.translation()).norm() + shift <= target.position_tolerance &&
-         geometry::angle_between(wanted, base_from_tool) + half[3] + half[4] + half[5] <= target.angle_tolerance;
+  const auto is_at = [&](const Pose& target_from_seated) {
+    const Pose wanted = base_from_target * target_from_seated;
+    const double shift = cell_radius(half, target_from_seated.translation().norm());
+    return (wanted.translation() - base_from_tool.translation()).norm() + shift <= target.position_tolerance &&
+           geometry::angle_between(wanted, base_from_tool) + half[3] + half[4] + half[5] <= target.angle_tolerance;
+  };
+  return std::any_of(target.target_from_seated.begin(), target.target_from_seated.end(), is_at);
 }
 
 Box target_region(const Scene& scene, const Pose& frame_from_base) {

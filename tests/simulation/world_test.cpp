@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "action/insertion.hpp"
 #include "belief/small_task.hpp"
 #include "contact/reference.hpp"
 #include "support/error.hpp"
@@ -31,7 +32,8 @@ Model turned_model(double pitch, double pitch_width) {
   scene::Scene scene = small_scene();
   const Pose target_from_shape = geometry::pose_from({0, 0, 0, 0, pitch, 0}).inverse();
   scene.target.mesh = geometry::transformed(scene.target.mesh, target_from_shape);
-  scene.target.target_from_seated = target_from_shape * scene.target.target_from_seated;
+  for (Pose& target_from_seated : scene.target.target_from_seated)
+    target_from_seated = target_from_shape * target_from_seated;
   scene.target.approach_axis = target_from_shape.linear() * scene.target.approach_axis;
   scene.prior = {{0.45, 0.0, 0.01, 0.0, pitch, 0.0}, {0.0, 0.04, 0.04, 0.0, pitch_width, 0.0}};
   return small_model(std::make_shared<const action::Task>(scene, action::TaskOptions{}), Kind::particles);
@@ -162,6 +164,24 @@ TEST(Insertion, IsDoneAtTheSeatAndNotAfterwards) {
     beside.translation() += Vector3(0.0, 0.004, 0.0);
     EXPECT_TRUE(world.execute(insertion_at(*model()->task, library, world.configuration(), beside)).contact);
     EXPECT_FALSE(world.inserted());
+  }
+}
+
+TEST(Insertion, IsDoneAtAnySeat) {
+  Rng rng(12);
+  const Model m = small_model(Kind::particles, {.roll_width = 0.2, .position_width = 0.04, .seats = 4});
+  action::ActionLibrary library(*m->task);
+  for (std::size_t seat = 0; seat < 3; ++seat) {  // the wrist does not turn to the last
+    const Pose truth = m->task->scene().prior.sample(rng);
+    World world(m, truth), of_one_seat(model(), truth);
+    const auto motion = action::insertion(*m->task, truth, world.configuration(), seat);
+    ASSERT_TRUE(motion);
+    const auto in = library.realise(world.configuration(), *motion, support::Deadline::unlimited());
+    ASSERT_TRUE(in);
+    EXPECT_FALSE(world.execute(*in).contact);
+    EXPECT_TRUE(world.inserted());
+    EXPECT_FALSE(of_one_seat.execute(*in).contact);
+    EXPECT_EQ(of_one_seat.inserted(), seat == 0);
   }
 }
 
