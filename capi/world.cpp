@@ -9,12 +9,27 @@ using namespace tactus::capi;
 namespace {
 
 tactus_world_options options_of(const simulation::WorldOptions& from) {
-  return {0, static_cast<int32_t>(from.fineness)};
+  constexpr double as_the_scenario_says = -1.0;
+  return {0,
+          static_cast<int32_t>(from.fineness),
+          from.seed,
+          as_the_scenario_says,
+          as_the_scenario_says,
+          as_the_scenario_says,
+          as_the_scenario_says};
 }
 
-simulation::WorldOptions options_from(const tactus_world_options& given) {
+/// What `given` says over what the scenario does.
+action::Sensing sensing_from(const tactus_world_options& given, const action::Sensing& scenario) {
+  const auto chosen = [](double wish, double otherwise) { return wish < 0.0 ? otherwise : wish; };
+  return {chosen(given.stopping_distance, scenario.stopping_distance),
+          chosen(given.encoder_error, scenario.encoder_error), chosen(given.missed_contacts, scenario.missed_contacts),
+          chosen(given.false_contacts, scenario.false_contacts)};
+}
+
+simulation::WorldOptions options_from(const tactus_world_options& given, const action::Sensing& scenario) {
   if (given.fineness < 1) reject("options.fineness", std::to_string(given.fineness), "1 or more");
-  return {static_cast<double>(given.fineness)};
+  return {static_cast<double>(given.fineness), sensing_from(given, scenario), given.seed};
 }
 
 /// Checks that `observation` has room for the joints, before anything moves.
@@ -46,8 +61,9 @@ tactus_status tactus_world_create(const tactus_scenario* scenario, const double 
     tactus_world*& made = cleared(world, "world");
     tactus_world_options chosen = options_of({});
     if (options != nullptr) chosen = read_struct(options, chosen, "options");
-    made = new tactus_world(required(scenario, "scenario").contents, capi::pose_from(true_pose, "true_pose"),
-                            options_from(chosen));
+    const ScenarioPtr& contents = required(scenario, "scenario").contents;
+    made = new tactus_world(contents, capi::pose_from(true_pose, "true_pose"),
+                            options_from(chosen, contents->task->options().sensing));
   });
 }
 

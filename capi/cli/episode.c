@@ -126,11 +126,12 @@ static void loop(episode* e) {
 static tactus_status begin(episode* e, uint64_t seed) {
   const trial_setup* setup = e->setup;
   tactus_planner_options planner = setup->planner;
-  planner.seed = seed;
+  tactus_world_options world = setup->world;
+  planner.seed = world.seed = seed;
   tactus_summary_init(&e->summary, sizeof e->summary);
   tactus_statistics_init(&e->statistics, sizeof e->statistics);
   tactus_observation_init(&e->observation, sizeof e->observation);
-  tactus_status status = tactus_world_create(setup->scenario, e->result->true_pose, NULL, &e->world);
+  tactus_status status = tactus_world_create(setup->scenario, e->result->true_pose, &world, &e->world);
   if (status == TACTUS_OK) status = tactus_belief_create(setup->scenario, &setup->belief, setup->start, &e->belief);
   if (status == TACTUS_OK) status = tactus_planner_create(setup->scenario, &planner, &e->planner);
   return status;

@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,6 +22,10 @@ const char* const usage =
     "  --budget-seconds B         for one planning call (the scenario's)\n"
     "  --budget-expansions E      the same, counted: same seed, same actions, on every machine\n"
     "  --true-pose x,y,z,r,p,y    of the target in the robot's base frame, m and rad, instead of drawing it\n"
+    "  --stopping-distance M      that the simulated robot may travel on after a contact (the scenario's)\n"
+    "  --encoder-error M          by which what it reports may be off (the scenario's)\n"
+    "  --missed-contacts P        share of motions in which it feels no contact (the scenario's)\n"
+    "  --false-contacts P         share of motions that a false contact stops (the scenario's)\n"
     "  --json FILE                results; - for stdout\n"
     "  --record FILE              the first trial, for a replay page\n"
     "\n"
@@ -41,6 +46,12 @@ static bool read_seconds(const char* text, double* value) {
   return end != text && *end == '\0' && isfinite(*value) && *value > 0.0;
 }
 
+static bool read_up_to(const char* text, double high, double* value) {
+  char* end = NULL;
+  *value = strtod(text, &end);
+  return end != text && *end == '\0' && isfinite(*value) && *value >= 0.0 && *value <= high;
+}
+
 static bool read_six(const char* text, double* values) {
   for (int i = 0; i < 6; ++i) {
     char* end = NULL;
@@ -51,9 +62,32 @@ static bool read_six(const char* text, double* values) {
   return true;
 }
 
+/* The same as `take`, for an option that says what the simulated robot does; `*known` is false for another option. */
+static const char* take_sensing(const char* name, const char* value, run_options* options, bool* known) {
+  const struct {
+    const char* name;
+    double* field;
+    bool share;
+  } all[] = {{"--stopping-distance", &options->stopping_distance, false},
+             {"--encoder-error", &options->encoder_error, false},
+             {"--missed-contacts", &options->missed_contacts, true},
+             {"--false-contacts", &options->false_contacts, true}};
+  *known = false;
+  for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
+    if (strcmp(name, all[i].name) == 0) {
+      *known = true;
+      if (!read_up_to(value, all[i].share ? 0.5 : DBL_MAX, all[i].field))
+        return all[i].share ? "a number from 0 to 0.5" : "a number of at least 0";
+    }
+  return NULL;
+}
+
 /* Takes in one option; what was expected if its value makes no sense, NULL if it does. */
 static const char* take(const char* name, const char* value, run_options* options) {
   uint64_t count = 0;
+  bool known = false;
+  const char* expected = take_sensing(name, value, options, &known);
+  if (known) return expected;
   if (strcmp(name, "--solver") == 0) {
     options->solver = value;
   } else if (strcmp(name, "--belief") == 0) {
@@ -80,9 +114,13 @@ static const char* take(const char* name, const char* value, run_options* option
 }
 
 static bool is_option(const char* name) {
-  static const char* const names[] = {"--trials", "--seed",           "--solver",
-                                      "--belief", "--budget-seconds", "--budget-expansions",
-                                      "--json",   "--record",         "--true-pose"};
+  static const char* const names[] = {"--trials",         "--seed",
+                                      "--solver",         "--belief",
+                                      "--budget-seconds", "--budget-expansions",
+                                      "--json",           "--record",
+                                      "--true-pose",      "--stopping-distance",
+                                      "--encoder-error",  "--missed-contacts",
+                                      "--false-contacts"};
   for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
     if (strcmp(name, names[i]) == 0) return true;
   return false;
@@ -97,6 +135,7 @@ bool parse_run_options(int argc, char** argv, run_options* options) {
   memset(options, 0, sizeof *options);
   options->trials = 1;
   options->seed = 1;
+  options->stopping_distance = options->encoder_error = options->missed_contacts = options->false_contacts = -1.0;
   for (int i = 0; i < argc; ++i) {
     if (strncmp(argv[i], "--", 2) != 0) {
       if (options->scenario != NULL) return complain(argv[i], "expected one scenario only");

@@ -18,6 +18,9 @@ typedef struct {
   uint64_t budget_expansions;
   bool has_true_pose;
   double true_pose[6]; /* x y z roll pitch yaw */
+  /* of the simulated robot; negative where not given */
+  double stopping_distance, encoder_error; /* m */
+  double missed_contacts, false_contacts;  /* shares */
 } run_options;
 
 extern const char* const usage;

@@ -29,6 +29,7 @@ static bool choose_options(run* r) {
   const run_options* o = &r->options;
   tactus_belief_options_init(&setup->belief, sizeof setup->belief);
   tactus_planner_options_init(&setup->planner, sizeof setup->planner);
+  tactus_world_options_init(&setup->world, sizeof setup->world);
   tactus_costs_init(&setup->costs, sizeof setup->costs);
   tactus_limits_init(&setup->limits, sizeof setup->limits);
   if (tactus_scenario_belief_options(r->scenario, &setup->belief) != TACTUS_OK ||
@@ -37,6 +38,10 @@ static bool choose_options(run* r) {
       tactus_scenario_limits(r->scenario, &setup->limits) != TACTUS_OK ||
       (o->solver != NULL && tactus_solver_from_name(o->solver, &setup->planner.solver) != TACTUS_OK))
     return failed(tactus_last_error());
+  setup->world.stopping_distance = o->stopping_distance;
+  setup->world.encoder_error = o->encoder_error;
+  setup->world.missed_contacts = o->missed_contacts;
+  setup->world.false_contacts = o->false_contacts;
   if (o->belief != NULL)
     setup->belief.kind = strcmp(o->belief, "particles") == 0 ? TACTUS_BELIEF_PARTICLES : TACTUS_BELIEF_HIERARCHICAL;
   if (o->budget_seconds > 0.0 || o->budget_expansions > 0) {

@@ -6,8 +6,8 @@
 namespace tactus::action {
 
 /// The insertion attempt at a target supposed at `base_from_target`: from the retreat plane along the approach axis to
-/// the seated pose, in finer steps and slower over the last `approach_depth`. An ordinary guarded motion. Null if the
+/// one of its seats, in finer steps and slower over the last `approach_depth`. An ordinary guarded motion. Null if the
 /// arm can't follow it.
-MotionPtr insertion(const Task& task, const Pose& base_from_target, const JointVector& near);
+MotionPtr insertion(const Task& task, const Pose& base_from_target, const JointVector& near, std::size_t seat = 0);
 
 }  // namespace tactus::action

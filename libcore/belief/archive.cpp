@@ -25,6 +25,10 @@ class Fingerprint {
     add(text.size());
     for (const char letter : text) add(std::uint64_t{static_cast<std::uint8_t>(letter)});
   }
+  /// To a millionth: it may come from sines.
+  void add(const Pose& pose) {
+    for (const double x : pose.matrix().reshaped()) add(static_cast<std::uint64_t>(std::llround(1e6 * x)));
+  }
   void add(const geometry::Mesh& mesh) {
     add(mesh.vertices.size());
     for (const Vector3& v : mesh.vertices)
@@ -38,14 +42,16 @@ class Fingerprint {
   std::uint64_t sum_ = 0;
 };
 
-/// Of the target, the tool, the prior, the joints, and the options that shape the belief. The robot's frames are left
-/// out: they come from sines that need not be the same to the last bit on every machine.
+/// Of the target, its seats, the tool, the prior, the joints, and the options that shape the belief. The robot's frames
+/// are left out: they come from sines that need not be the same to the last bit on every machine.
 std::uint64_t fingerprint(const Model& model) {
   const scene::Scene& scene = model.task->scene();
   const Options& options = model.options;
   Fingerprint print;
   print.add(scene.target.mesh);
   print.add(scene.tool);
+  print.add(scene.target.target_from_seated.size());
+  for (const Pose& target_from_seated : scene.target.target_from_seated) print.add(target_from_seated);
   for (int d = 0; d < 6; ++d) {
     print.add(scene.prior.centre[d]);
     print.add(scene.prior.width[d]);
@@ -182,9 +188,10 @@ std::vector<std::uint8_t> Belief::save() const {
 Belief Belief::restore(std::shared_ptr<const Model> model, const std::uint8_t* bytes, std::size_t size) {
   ByteReader from(seal, "saved belief", bytes, size);
   if (from.u64("fingerprint") != fingerprint(*model))
-    throw support::Error(support::Status::wrong_scenario,
-                         "saved belief: found one of another scenario, expected the same target, tool, prior, joints "
-                         "and belief options");
+    throw support::Error(
+        support::Status::wrong_scenario,
+        "saved belief: found one of another scenario, expected the same target, seats, tool, prior, joints "
+        "and belief options");
   Belief belief(std::move(model));
   const Task& task = belief.task();
   belief.q_ = action::read_joints(from, task.scene().robot->dof(), "configuration");

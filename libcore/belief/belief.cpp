@@ -164,7 +164,8 @@ std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::
     if (drawn) (drawn->exact ? exact : near).push_back(drawn->pose);
   }
   const std::size_t least = count / least_share;
-  for (std::size_t i = 0; i < near.size() && exact.size() < least; ++i) exact.push_back(near[i]);
+  for (std::size_t i = 0; i < near.size() && exact.size() < least; ++i)
+    if (contains(geometry::pose_from(near[i]))) exact.push_back(near[i]);
   while (exact.size() < least) exact.push_back(cells_->draw_in(cells_->draw_cell(rng), rng));
   std::vector<Pose> poses;
   for (const PoseVector& v : exact) poses.push_back(geometry::pose_from(v));

@@ -13,7 +13,8 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr double tie = 1e-9;  // rad: passes of one path through the same configuration
+constexpr double tie = 1e-9;  // rad or m: passes of one path through the same configuration
+constexpr int thirds = 50;    // of a search that leaves two thirds each time
 
 void check(const Task& task, const Observation& observation) {
   const int dof = task.scene().robot->dof();
@@ -35,6 +36,62 @@ JointVector between(const JointVector& from, const JointVector& to, double fract
   return from + fraction * (to - from);
 }
 
+/// A point of a segment, and how far it is from where a robot says that it is.
+struct Nearest {
+  double fraction = 0.0;
+  double away = 0.0;
+};
+
+Nearest nearest_in_joints(const JointVector& from, const JointVector& to, const JointVector& q) {
+  const JointVector along = to - from;
+  const double length = along.squaredNorm();
+  const double fraction = length > 0.0 ? std::clamp(along.dot(q - from) / length, 0.0, 1.0) : 1.0;
+  return {fraction, (between(from, to, fraction) - q).norm()};
+}
+
+/// By how far a point of the robot may be off, which is convex along a segment. Where that is more than `enough`
+/// anyway, the nearer end.
+Nearest nearest_in_metres(const Task& task, const JointVector& from, const JointVector& to, const JointVector& q,
+                          double enough) {
+  const double start = bound(task, from, q), end = bound(task, to, q);
+  Nearest best = start < end ? Nearest{0.0, start} : Nearest{1.0, end};
+  if (start - bound(task, from, to) > enough) return best;
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < thirds; ++i) {
+    const double third = (high - low) / 3.0;
+    const double left = bound(task, between(from, to, low + third), q);
+    const double right = bound(task, between(from, to, high - third), q);
+    (left <= right ? high : low) += left <= right ? -third : third;
+  }
+  const double middle = 0.5 * (low + high), away = bound(task, between(from, to, middle), q);
+  return away < best.away - tie ? Nearest{middle, away} : best;
+}
+
+/// Where a path comes nearest to `q` as `measure` has it for a segment: the first such pass, or the last.
+template <typename Measure>
+Stop nearest_pass(const JointPath& path, bool first, const Measure& measure) {
+  Stop best;
+  double nearest = measure(path.front(), path.front()).away;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const auto [fraction, away] = measure(path[i - 1], path[i]);
+    const bool nearer = first ? away < nearest - tie : away <= nearest + tie;
+    if (!nearer || (fraction == 0.0 && away >= nearest - tie)) continue;
+    nearest = std::min(nearest, away);
+    best = {i, fraction, 0};
+  }
+  return best;
+}
+
+JointVector point(const JointPath& path, const Stop& stop) {
+  return stop.segment == 0 ? path.front() : between(path[stop.segment - 1], path[stop.segment], stop.fraction);
+}
+
+/// How far before the located stop the first contact may lie.
+double uncertain(const Task& task) {
+  const action::Sensing& sensing = task.options().sensing;
+  return task.options().stop_tolerance + sensing.stopping_distance + 2.0 * sensing.encoder_error;
+}
+
 /// The configuration `back` metres of motion before the stop on its segment; the segment's beginning if that is nearer.
 JointVector backed_off(const Task& task, const JointVector& from, const JointVector& stop, double back) {
   const double length = bound(task, from, stop);
@@ -46,23 +103,20 @@ JointVector backed_off(const Task& task, const JointVector& from, const JointVec
 Stop locate(const Task& task, const Action& action, const Observation& observation) {
   check(task, observation);
   const JointPath& path = action.path;
-  const double allowed = std::max(0.001, task.options().stop_tolerance);
-  const bool first_pass = observation.contact || bound(task, path.back(), observation.q) > allowed;
-  Stop best;
-  double nearest = (path.front() - observation.q).norm();
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const JointVector along = path[i] - path[i - 1];
-    const double length = along.squaredNorm();
-    const double fraction = length > 0.0 ? std::clamp(along.dot(observation.q - path[i - 1]) / length, 0.0, 1.0) : 1.0;
-    const double away = (between(path[i - 1], path[i], fraction) - observation.q).norm();
-    const bool nearer = first_pass ? away < nearest - tie : away <= nearest + tie;
-    if (!nearer || (fraction == 0.0 && away >= nearest - tie)) continue;
-    nearest = std::min(nearest, away);
-    best = {i, fraction, 0};
-  }
-  const JointVector on_path =
-      best.segment == 0 ? path.front() : between(path[best.segment - 1], path[best.segment], best.fraction);
-  const double off = bound(task, on_path, observation.q);
+  const JointVector& q = observation.q;
+  const double error = task.options().sensing.encoder_error;
+  const double allowed = std::max({0.001, task.options().stop_tolerance, error + tie});
+  const double off_end = bound(task, path.back(), q);
+  if (error > 0.0 && !observation.contact && off_end <= error + tie) return {path.size() - 1, 1.0, path.size() - 1};
+  const bool first_pass = observation.contact || off_end > allowed;
+  Stop best = nearest_pass(
+      path, first_pass, [&](const JointVector& from, const JointVector& to) { return nearest_in_joints(from, to, q); });
+  if (error > 0.0 || bound(task, point(path, best), q) > allowed)
+    best = nearest_pass(path, first_pass, [&](const JointVector& from, const JointVector& to) {
+      return nearest_in_metres(task, from, to, q, allowed);
+    });
+  const JointVector on_path = point(path, best);
+  const double off = bound(task, on_path, q);
   if (off > allowed)
     throw Error(Status::stop_off_path, "observation.joints: found a stop up to " + std::to_string(1000.0 * off) +
                                            " mm off the action's path, expected at most " +
@@ -73,8 +127,7 @@ Stop locate(const Task& task, const Action& action, const Observation& observati
     return best;
   }
   best.last_free = best.segment == 0 ? 0 : best.segment - 1;
-  while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < task.options().stop_tolerance)
-    --best.last_free;
+  while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < uncertain(task)) --best.last_free;
   return best;
 }
 
@@ -102,7 +155,7 @@ Trace trace_of(const Task& task, const Action& action, const Observation& observ
                       : (stop.last_free + 1 == action.path.size() ? action.path.size() : stop.last_free);
   trace.path.assign(action.path.begin(), action.path.begin() + static_cast<std::ptrdiff_t>(stop.last_free) + 1);
   if (observation.contact) {
-    const JointVector free = backed_off(task, trace.path.back(), observation.q, task.options().stop_tolerance);
+    const JointVector free = backed_off(task, trace.path.back(), observation.q, uncertain(task));
     if (stop.segment == stop.last_free + 1 && free != trace.path.back()) trace.path.push_back(free);
     trace.path.push_back(observation.q);
   } else if (stop.segment > stop.last_free) {

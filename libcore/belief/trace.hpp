@@ -27,10 +27,11 @@ struct Stop {
                               ///< contact, and where it is without one
 };
 
-/// Finds the stop. A robot without contact at the path's end has gone all the way; any other stop is the path's first
-/// pass there: what comes after it may not have been tested. Throws
-/// `stop_off_path` if the robot stopped farther from the path than any point of it may be off (1 mm or the stop
-/// tolerance), and `invalid_argument` for a NaN or a wrong number of joints.
+/// Finds the stop. A robot without contact at the path's end, give or take the encoder error, has gone all the way; any
+/// other stop is the path's first pass there: what comes after it may not have been tested. After a contact the last
+/// free waypoint is farther back than the stop tolerance, the stopping distance and what the encoders may be off at
+/// both. Throws `stop_off_path` if the robot stopped farther from the path than any point of it may be off (1 mm, the
+/// stop tolerance or the encoder error), and `invalid_argument` for a NaN or a wrong number of joints.
 Stop locate(const Task& task, const Action& action, const Observation& observation);
 
 /// An action as far as it went, in a form in which it can be replayed against any pose: free at every waypoint but the

@@ -72,7 +72,7 @@ void read_world(Reader& in, std::vector<ObjectDescription>& world) {
 
 void read_target(Reader& in, TargetDescription& target) {
   read_mesh(in, target.mesh);
-  in.pose("seated", target.target_from_seated_tool, required);
+  in.poses("seated", target.target_from_seated_tool, required);
   in.vector("approach_axis", target.approach_axis, any_number, required);
   in.number("approach_depth", target.approach_depth, positive, required);
   in.section("tolerance", [&](Reader& tolerance) { read_resolution(tolerance, target.tolerance); });

@@ -52,7 +52,7 @@ struct Resolution {
 
 struct TargetDescription {
   MeshSource mesh;
-  geometry::Pose target_from_seated_tool = geometry::Pose::Identity();  ///< of the tool link when done
+  std::vector<geometry::Pose> target_from_seated_tool;  ///< of the tool link when done: at any of these
   geometry::Vector3 approach_axis =
       geometry::Vector3::UnitZ();  ///< unit, in the target's frame: where the last motion goes
   double approach_depth = 0.0;     ///< m: length of that motion, along which the tool may be inside the target

@@ -38,6 +38,13 @@ std::vector<Place> elements_of(const Place& list) {
   return elements;
 }
 
+void read_pose(Reader& in, geometry::PoseVector& out) {
+  Vector3 xyz(out[0], out[1], out[2]), rpy(out[3], out[4], out[5]);
+  in.vector("xyz", xyz, any_number);
+  in.vector("rpy", rpy, any_number);
+  out = {xyz.x(), xyz.y(), xyz.z(), rpy.x(), rpy.y(), rpy.z()};
+}
+
 }  // namespace
 
 bool Range::contains(double x) const { return std::isfinite(x) && (low_excluded ? x > low : x >= low) && x <= high; }
@@ -145,19 +152,28 @@ void Reader::folders(const std::string& key, std::map<std::string, fs::path>& ou
 }
 
 void Reader::pose(const std::string& key, geometry::PoseVector& out, Need need) {
-  const auto read = [&](Reader& in) {
-    Vector3 xyz(out[0], out[1], out[2]), rpy(out[3], out[4], out[5]);
-    in.vector("xyz", xyz, any_number);
-    in.vector("rpy", rpy, any_number);
-    out = {xyz.x(), xyz.y(), xyz.z(), rpy.x(), rpy.y(), rpy.z()};
-  };
-  section(key, read, need);
+  section(
+      key, [&](Reader& in) { read_pose(in, out); }, need);
 }
 
 void Reader::pose(const std::string& key, geometry::Pose& out, Need need) {
   geometry::PoseVector vector = geometry::pose_vector(out);
   pose(key, vector, need);
   out = geometry::pose_from(vector);
+}
+
+void Reader::poses(const std::string& key, std::vector<geometry::Pose>& out, Need need) {
+  const std::string expected = "a map or a list of maps";
+  const Place* place = find(key, expected, need);
+  if (place == nullptr) return;
+  const bool one = place->node.IsMap();
+  if (!one && !(place->node.IsSequence() && place->node.size() > 0)) return wrong(*place, expected);
+  out.clear();
+  for (const Place& element : one ? std::vector{*place} : elements_of(*place)) {
+    geometry::PoseVector pose{};
+    read_map(element, [&](Reader& in) { read_pose(in, pose); });
+    out.push_back(geometry::pose_from(pose));
+  }
 }
 
 void Reader::section(const std::string& key, const Read& read, Need need) {

@@ -84,6 +84,8 @@ class Reader {
   void folders(const std::string& key, std::map<std::string, std::filesystem::path>& out);
   void pose(const std::string& key, geometry::PoseVector& out, Need need = Need::optional);
   void pose(const std::string& key, geometry::Pose& out, Need need = Need::optional);
+  /// One pose or a list of them.
+  void poses(const std::string& key, std::vector<geometry::Pose>& out, Need need = Need::optional);
 
   /// Reads the map below `key`, up to its `finish`.
   void section(const std::string& key, const Read& read, Need need = Need::optional);

@@ -28,11 +28,14 @@ double reach_of(const Mesh& mesh) {
 }  // namespace
 
 bool Scene::is_seated(const Pose& base_from_tool, const Pose& base_from_target, const PoseVector& half) const {
-  const Vector3 wanted = base_from_target.translation();
-  const Vector3 got = base_from_tool * target.target_from_seated.inverse().translation();
-  return (wanted - got).norm() + cell_radius(half, 0.0) <= target.position_tolerance &&
-         geometry::angle_between(seated(base_from_target), base_from_tool) + half[3] + half[4] + half[5] <=
-             target.angle_tolerance;
+  const auto is_at = [&](const Pose& target_from_seated) {
+    const Vector3 got = base_from_tool * target_from_seated.inverse().translation();
+    return (base_from_target.translation() - got).norm() + cell_radius(half, 0.0) <= target.position_tolerance &&
+           geometry::angle_between(base_from_target * target_from_seated, base_from_tool) + half[3] + half[4] +
+                   half[5] <=
+               target.angle_tolerance;
+  };
+  return std::any_of(target.target_from_seated.begin(), target.target_from_seated.end(), is_at);
 }
 
 Box target_region(const Scene& scene, const Pose& frame_from_base) {

@@ -15,9 +15,10 @@ using geometry::Vector3;
 
 /// What is searched for, and what "done" means. Const.
 struct Target {
-  Mesh mesh;                                   ///< in its own frame, metres
-  Pose target_from_seated = Pose::Identity();  ///< the tool link's pose when the task is done
-  Vector3 approach_axis = Vector3::UnitX();    ///< unit, in the target's frame: the way the tool goes in
+  Mesh mesh;                                               ///< in its own frame, metres
+  std::vector<Pose> target_from_seated{Pose::Identity()};  ///< the tool link's poses at any of which the task is done;
+                                                           ///< at least one; motions are laid out by the first
+  Vector3 approach_axis = Vector3::UnitX();                ///< unit, in the target's frame: the way the tool goes in
   double approach_depth = 0.02;       ///< m of the last straight motion, along which the tool may be inside the target
   double position_tolerance = 0.003;  ///< m, of the tool against the seated pose, at the target's origin
   double angle_tolerance = 0.15;      ///< rad
@@ -39,11 +40,15 @@ struct Scene {
   Target target;
   Prior prior;
 
-  /// The tool link's pose, in the base frame, that completes the task for a target at `base_from_target`.
-  Pose seated(const Pose& base_from_target) const { return base_from_target * target.target_from_seated; }
+  /// The tool link's pose, in the base frame, that completes the task for a target at `base_from_target`, by one of the
+  /// target's seats.
+  Pose seated(const Pose& base_from_target, std::size_t seat = 0) const {
+    return base_from_target * target.target_from_seated[seat];
+  }
 
-  /// Whether a tool at `base_from_tool` is seated, within tolerance, in a target at `base_from_target`; with `half`, in
-  /// a target at every pose whose x, y, z, roll, pitch, yaw are each within that of `base_from_target`'s.
+  /// Whether a tool at `base_from_tool` is at one of the seats, within tolerance, of a target at `base_from_target`;
+  /// with `half`, at the same seat of a target at every pose whose x, y, z, roll, pitch, yaw are each within that of
+  /// `base_from_target`'s.
   bool is_seated(const Pose& base_from_tool, const Pose& base_from_target, const PoseVector& half = {}) const;
 };
 

@@ -58,8 +58,7 @@ class PoseState : public BeliefState {
     const std::size_t attempts = at_start_
                                      ? static_cast<std::size_t>(problem_->task_->options().actions.insertion_candidates)
                                      : inner_candidates;
-    for (const std::size_t pose : problem_->insertion_candidates(members_, attempts))
-      consider(problem_->insertion_at(pose, q_));
+    for (const MotionPtr& motion : problem_->insertions(members_, q_, attempts)) consider(motion);
     return result;
   }
 
@@ -120,7 +119,9 @@ PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_p
       predictions_(task_, std::move(poses)),
       bits_(bits),
       cost_per_bit_(cost_per_bit) {
-  for (const Pose& pose : predictions_.poses()) seated_.push_back(task_->scene().seated(pose));
+  for (const Pose& pose : predictions_.poses())
+    for (std::size_t seat = 0; seat < seats(); ++seat) seated_.push_back(task_->scene().seated(pose, seat));
+  find_neighbours();
 }
 
 BeliefStatePtr PoseProblem::start(const JointVector& q) {
@@ -144,43 +145,81 @@ const std::vector<MotionPtr>& PoseProblem::anchored(const JointVector& near) {
   return anchored_;
 }
 
-MotionPtr PoseProblem::insertion_at(std::size_t pose, const JointVector& near) {
-  const auto [entry, is_new] = insertions_.try_emplace(pose, nullptr);
-  if (is_new) entry->second = action::insertion(*task_, predictions_.poses()[pose], near);
+MotionPtr PoseProblem::insertion_at(std::size_t seat, const JointVector& near) {
+  const auto [entry, is_new] = insertions_.try_emplace(seat, nullptr);
+  if (is_new) entry->second = action::insertion(*task_, predictions_.poses()[seat / seats()], near, seat % seats());
   return entry->second;
 }
 
-/// The poses whose seats have the most others near by, each standing for a different group.
-std::vector<std::size_t> PoseProblem::insertion_candidates(const Bitset& members, std::size_t most) const {
-  std::vector<std::size_t> left, chosen;
-  members.for_each([&](std::size_t pose) { left.push_back(pose); });
-  const auto near = [&](std::size_t a, std::size_t b) {
-    return (seated_[a].translation() - seated_[b].translation()).norm() +
-               lever * geometry::angle_between(seated_[a], seated_[b]) <
-           same_seat;
-  };
-  while (!left.empty() && chosen.size() < most) {
-    std::size_t best = left.front();
-    std::ptrdiff_t densest = 0;
-    for (const std::size_t a : left) {
-      const auto neighbours = std::count_if(left.begin(), left.end(), [&](std::size_t b) { return near(a, b); });
-      if (neighbours > densest) densest = neighbours, best = a;
+void PoseProblem::find_neighbours() {
+  neighbours_.assign(seated_.size(), Bitset(seated_.size()));
+  for (std::size_t a = 0; a < seated_.size(); ++a)
+    for (std::size_t b = 0; b <= a; ++b) {
+      const double shift = (seated_[a].translation() - seated_[b].translation()).norm();
+      if (shift >= same_seat || shift + lever * geometry::angle_between(seated_[a], seated_[b]) >= same_seat) continue;
+      neighbours_[a].set(b);
+      neighbours_[b].set(a);
     }
-    chosen.push_back(best);
-    std::erase_if(left, [&](std::size_t pose) { return near(best, pose); });
-    if (densest <= 1) break;
-  }
-  return chosen;
 }
 
-double PoseProblem::direct_cost(const Pose& base_from_tool, std::size_t pose) const {
+/// Attempts at the seats that have the most others near by, each for a different group of poses. Where several seats of
+/// a pose are as good the nearest counts, and the others if the arm can't get there.
+std::vector<MotionPtr> PoseProblem::insertions(const Bitset& members, const JointVector& q, std::size_t most) {
+  const std::vector<std::size_t> order = seats_of(members, q);
+  Bitset left(seated_.size());
+  for (const std::size_t seat : order) left.set(seat);
+  std::vector<MotionPtr> found;
+  for (std::size_t tries = 0; tries < most * seats() && found.size() < most && !left.none(); ++tries) {
+    std::size_t best = 0, densest = 0;
+    for (const std::size_t seat : order) {
+      if (!left.test(seat)) continue;
+      Bitset group = neighbours_[seat];
+      const std::size_t size = (group &= left).count();
+      if (size > densest) densest = size, best = seat;
+    }
+    Bitset served = neighbours_[best];
+    served &= left;
+    left.and_not(served);
+    const MotionPtr motion = insertion_at(best, q);
+    if (!motion) continue;
+    found.push_back(motion);
+    served.for_each([&](std::size_t seat) { left.reset_in(seat - seat % seats(), seat - seat % seats() + seats()); });
+    if (densest <= 1) break;
+  }
+  return found;
+}
+
+/// The seats of some poses, those of each the nearest to the tool first.
+std::vector<std::size_t> PoseProblem::seats_of(const Bitset& members, const JointVector& q) const {
+  const Pose base_from_tool = task_->base_from_tool(q);
+  std::vector<std::size_t> order;
+  members.for_each([&](std::size_t pose) {
+    const auto first = static_cast<std::ptrdiff_t>(order.size());
+    for (std::size_t seat = 0; seat < seats(); ++seat) order.push_back(pose * seats() + seat);
+    std::stable_sort(order.begin() + first, order.end(), [&](std::size_t a, std::size_t b) {
+      return seat_cost(base_from_tool, a) < seat_cost(base_from_tool, b);
+    });
+  });
+  return order;
+}
+
+/// Of getting the tool to a seat, the straight way.
+double PoseProblem::seat_cost(const Pose& base_from_tool, std::size_t seat) const {
   const action::CostWeights& weights = task_->options().cost;
   const scene::Target& target = task_->scene().target;
-  const double metres = (seated_[pose].translation() - base_from_tool.translation()).norm();
-  const double radians = geometry::angle_between(base_from_tool, seated_[pose]);
-  const double tilted = target.angle_tolerance * target.target_from_seated.translation().norm();
+  const double metres = (seated_[seat].translation() - base_from_tool.translation()).norm();
+  const double radians = geometry::angle_between(base_from_tool, seated_[seat]);
+  const double tilted = target.angle_tolerance * target.target_from_seated[seat % seats()].translation().norm();
   return weights.metre * std::max(0.0, metres - target.position_tolerance - tilted) +
          weights.radian * std::max(0.0, radians - target.angle_tolerance) + weights.action;
+}
+
+/// The same to the best of a pose's seats.
+double PoseProblem::direct_cost(const Pose& base_from_tool, std::size_t pose) const {
+  double least = seat_cost(base_from_tool, pose * seats());
+  for (std::size_t seat = 1; seat < seats(); ++seat)
+    least = std::min(least, seat_cost(base_from_tool, pose * seats() + seat));
+  return least;
 }
 
 /// The box in the search frame of the target at every pose.

@@ -24,15 +24,21 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   friend class PoseState;
   bool seated(const action::Motion& motion, std::size_t pose) const;
   const std::vector<action::MotionPtr>& anchored(const robot::JointVector& near);
-  action::MotionPtr insertion_at(std::size_t pose, const robot::JointVector& near);
-  std::vector<std::size_t> insertion_candidates(const support::Bitset& members, std::size_t most) const;
+  std::size_t seats() const { return task_->scene().target.target_from_seated.size(); }
+  void find_neighbours();
+  action::MotionPtr insertion_at(std::size_t seat, const robot::JointVector& near);
+  std::vector<action::MotionPtr> insertions(const support::Bitset& members, const robot::JointVector& q,
+                                            std::size_t most);
+  std::vector<std::size_t> seats_of(const support::Bitset& members, const robot::JointVector& q) const;
+  double seat_cost(const geometry::Pose& base_from_tool, std::size_t seat) const;
   double direct_cost(const geometry::Pose& base_from_tool, std::size_t pose) const;
   geometry::Box region() const;
 
   std::shared_ptr<const action::Task> task_;
   std::shared_ptr<action::ActionLibrary> library_;
   Predictions predictions_;
-  std::vector<geometry::Pose> seated_;  ///< tool link, base frame, by pose
+  std::vector<geometry::Pose> seated_;       ///< tool link, base frame: the seats of the first pose, of the next, ...
+  std::vector<support::Bitset> neighbours_;  ///< by seat: those that one attempt may serve, itself among them
   double bits_;
   double cost_per_bit_;
   std::vector<action::MotionPtr> anchored_;

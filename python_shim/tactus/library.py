@@ -75,7 +75,8 @@ class StatisticsStruct(ctypes.Structure):
 
 
 class WorldOptions(ctypes.Structure):
-    _fields_ = [("struct_size", c_uint32), ("fineness", c_int32)]
+    _fields_ = [("struct_size", c_uint32), ("fineness", c_int32), ("seed", c_uint64), ("stopping_distance", c_double),
+                ("encoder_error", c_double), ("missed_contacts", c_double), ("false_contacts", c_double)]
 
 
 LOG_CALLBACK = ctypes.CFUNCTYPE(None, c_int32, c_char_p, c_void_p)

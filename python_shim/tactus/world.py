@@ -15,27 +15,33 @@ class World(Object):
 
     _destroy = "tactus_world_destroy"
 
-    def __init__(self, scenario, true_pose, *, fineness=None):
+    def __init__(self, scenario, true_pose, *, fineness=None, seed=None, stopping_distance=None, encoder_error=None,
+                 missed_contacts=None, false_contacts=None):
         """The robot at the scenario's start, the target at ``true_pose`` (7), anywhere in the prior.
 
-        Contacts are looked for at ``fineness`` times finer steps than an action's waypoints. Raises `InvalidArgument`, `TaskImpossible`."""
+        Contacts are looked for at ``fineness`` times finer steps than an action's waypoints. The last four are what the robot
+        really does (m, m, and shares up to 0.5), by default what the scenario's ``sensing`` says; ``seed`` decides what
+        chance does. Raises `InvalidArgument`, `TaskImpossible`."""
         options = struct(library.WorldOptions, "tactus_world_options_init")
-        if fineness is not None:
-            options.fineness = fineness
+        chosen = {"fineness": fineness, "seed": seed, "stopping_distance": stopping_distance,
+                  "encoder_error": encoder_error, "missed_contacts": missed_contacts, "false_contacts": false_contacts}
+        for name, wish in chosen.items():
+            if wish is not None:
+                setattr(options, name, wish)
         pose = vector(true_pose, 7, "true_pose")
         super().__init__(self._made_by("tactus_world_create", WorldHandle, scenario.handle, pointer(pose),
                                        ctypes.byref(options)))
         self._dof = scenario.dof
 
     def execute(self, action):
-        """Executes an action guarded: stops at the first contact and reports where, then goes back to the last free waypoint."""
+        """Executes an action guarded: stops at the first contact that it feels and reports where, then goes back to the last free waypoint."""
         seen = Observation(False, np.zeros(self._dof)).as_struct()
         call("tactus_world_execute", self.handle, action.handle, ctypes.byref(seen))
         return Observation(seen.contact != 0, seen.array)
 
     @property
     def inserted(self):
-        """Whether the tool got to the seated pose without a contact on the way."""
+        """Whether the tool got to the seated pose and touched nothing on the way, felt or not."""
         return bool(value("tactus_world_inserted", ctypes.c_int32, self.handle))
 
     @property

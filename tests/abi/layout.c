@@ -76,7 +76,12 @@ SIZE(tactus_statistics, 64);
 
 AT(tactus_world_options, struct_size, 0);
 AT(tactus_world_options, fineness, 4);
-SIZE(tactus_world_options, 8);
+AT(tactus_world_options, seed, 8);
+AT(tactus_world_options, stopping_distance, 16);
+AT(tactus_world_options, encoder_error, 24);
+AT(tactus_world_options, missed_contacts, 32);
+AT(tactus_world_options, false_contacts, 40);
+SIZE(tactus_world_options, 48);
 
 #define VALUE(name, value) _Static_assert((name) == (value), #name " has another value")
 

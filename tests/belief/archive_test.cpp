@@ -137,6 +137,9 @@ TEST(SavedBelief, OfAnotherScenarioIsNotTaken) {
                                             .most_cells = 200,
                                             .sensing = {.stopping_distance = 0.002}}),
            bytes, Status::wrong_scenario);
+  error_of(small_model(Kind::hierarchical,
+                       {.roll_width = 0.3, .position_width = 0.04, .delta = 1300, .most_cells = 200, .seats = 2}),
+           bytes, Status::wrong_scenario);
   EXPECT_NO_THROW(restored(
       small_model(Kind::hierarchical, {.roll_width = 0.3, .position_width = 0.04, .delta = 1300, .most_cells = 200}),
       bytes));

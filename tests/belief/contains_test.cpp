@@ -22,8 +22,8 @@ Belief about(const PoseVector& centre, const PoseVector& width) {
   scene.prior = {centre, width};
   const Eigen::Matrix3d target_from_base = scene.prior.central_pose().linear().transpose();
   scene.target.approach_axis = target_from_base * Vector3::UnitX();
-  scene.target.target_from_seated.linear() = target_from_base;
-  scene.target.target_from_seated.translation() = -0.013 * scene.target.approach_axis;
+  scene.target.target_from_seated.front().linear() = target_from_base;
+  scene.target.target_from_seated.front().translation() = -0.013 * scene.target.approach_axis;
   const auto task = std::make_shared<const action::Task>(scene, action::TaskOptions{});
   return Belief(small_model(task, Kind::particles, {.most_cells = 0}), scene.start);
 }

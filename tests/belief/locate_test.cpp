@@ -113,6 +113,59 @@ TEST(Locate, AllOfAFreePathIsFree) {
   EXPECT_EQ(trace.outcome, action.path.size());
 }
 
+/// What a robot at `q` reports if its encoders put some point of it `off` metres off.
+JointVector misread(const action::Task& noisy, const JointVector& q, double off, Rng& rng) {
+  JointVector error(q.size());
+  for (double& component : error) component = rng.uniform(-1.0, 1.0) * 0.01;
+  for (int i = 0; i < 5; ++i) error *= off / noisy.known_world().displacement(q, q + error);
+  return q + error;
+}
+
+TEST(Locate, IsOffByNoMoreThanTheEncodersAreAtBothEnds) {
+  const action::Sensing sensing{.stopping_distance = 0.002, .encoder_error = 0.0015};
+  const auto noisy = small_task({.sensing = sensing});
+  Rng rng(2);
+  action::ActionLibrary library(*noisy);
+  for (int i = 0; i < 60; ++i) {
+    const action::Action action = random_action(*noisy, library, noisy->scene().start, rng);
+    const std::size_t segment = 1 + rng.below(action.path.size() - 1);
+    const JointVector truth = between(action.path[segment - 1], action.path[segment], rng.uniform());
+    const JointVector q = misread(*noisy, truth, 0.999 * sensing.encoder_error, rng);
+    const Stop stop = belief::locate(*noisy, action, {true, q});
+    const JointVector located = stop.segment == 0
+                                    ? action.path.front()
+                                    : between(action.path[stop.segment - 1], action.path[stop.segment], stop.fraction);
+    EXPECT_LE(noisy->known_world().displacement(located, truth), 2.0 * sensing.encoder_error + 1e-6);
+    if (stop.last_free == 0) continue;
+    const double back = noisy->known_world().displacement(action.path[stop.last_free], truth);
+    EXPECT_GE(back, noisy->options().stop_tolerance + sensing.stopping_distance - 1e-6);
+  }
+}
+
+TEST(Locate, AStopNearThePathIsOnItHoweverFarTheJointsAreOff) {
+  std::vector<JointVector> path;
+  for (int i = 0; i <= 5; ++i) path.push_back(joints({0.34, 0.004 * i, 0, 0.09 * i, 0, 0}));
+  JointVector q = between(path[2], path[3], 0.5);
+  q[3] += 0.03;  // turns the tool by half a millimetre, and is nearest in joints to a point 1.3 mm on
+  const Stop stop = belief::locate(task(), action_along(task(), path), {true, q});
+  EXPECT_EQ(stop.segment, 3u);
+}
+
+TEST(Locate, AStopWithinTheEncoderErrorOfTheEndIsTheEnd) {
+  const action::Sensing sensing{.encoder_error = 0.0005};
+  const auto noisy = small_task({.sensing = sensing});
+  const action::Action action = out_and_back(5);
+  Rng rng(3);
+  for (int i = 0; i < 50; ++i) {
+    const Observation seen{false, misread(*noisy, action.path.back(), rng.uniform() * sensing.encoder_error, rng)};
+    const Stop stop = belief::locate(*noisy, action, seen);
+    EXPECT_EQ(stop.last_free, action.path.size() - 1);
+    EXPECT_EQ(belief::trace_of(*noisy, action, seen, stop).path, action.path);
+  }
+  const JointVector halted = between(action.path[9], action.path[10], 0.5);  // 2 mm
+  EXPECT_LT(belief::locate(*noisy, action, {false, halted}).last_free, action.path.size() - 1);
+}
+
 TEST(Step, GoesBackToTheLastFreeWaypointAfterAContactAndStaysWhereItStoppedWithout) {
   const action::Action action =
       action_along(task(), {in_front(0.40), in_front(0.404), in_front(0.408), in_front(0.412), in_front(0.416)});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "belief/small_task.hpp"
 
+#include <numbers>
 #include <stdexcept>
 
 #include "action/insertion.hpp"
@@ -11,6 +12,8 @@ namespace tactus::test {
 namespace {
 
 using robot::JointKind;
+
+constexpr double quarter_turn = 0.5 * std::numbers::pi;
 
 Mesh box_at(const Vector3& size, const Vector3& centre) {
   return geometry::transformed(geometry::box_mesh(size), Pose(Eigen::Translation3d(centre)));
@@ -100,7 +103,9 @@ scene::Scene small_scene(const SmallTask& small) {
   scene.start = joints({0.34, 0.01, -0.02, 0.0, 0.0, 0.0});
   scene.world.push_back({"post", box_at({0.02, 0.02, 0.3}, {0.46, 0.125, 0.0})});
   scene.target.mesh = socket();
-  scene.target.target_from_seated.translation() = Vector3(-0.013, 0.0, 0.0);
+  scene.target.target_from_seated.clear();
+  for (int seat = 0; seat < small.seats; ++seat)
+    scene.target.target_from_seated.push_back(geometry::pose_from({-0.013, 0, 0, quarter_turn * seat, 0, 0}));
   scene.prior.centre = {0.45, 0.0, 0.01, 0.1, 0.0, 0.0};
   scene.prior.width = {0.0, small.position_width, small.position_width, small.roll_width, 0.0, 0.0};
   return scene;

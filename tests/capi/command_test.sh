@@ -30,6 +30,10 @@ expect 2 'a number from 1' run x.yaml --trials 0
 expect 2 'greater than 0' run x.yaml --budget-seconds nan
 expect 2 'six numbers' run x.yaml --true-pose 1,2,3
 expect 2 'hierarchical or particles' run x.yaml --belief firm
+expect 2 'at least 0' run x.yaml --stopping-distance -0.001
+expect 2 'at least 0' run x.yaml --encoder-error inf
+expect 2 'from 0 to 0.5' run x.yaml --missed-contacts 0.6
+expect 2 'from 0 to 0.5' run x.yaml --false-contacts nan
 expect 2 '/nowhere.yaml' run /nowhere.yaml
 expect 2 '/nowhere.yaml' check /nowhere.yaml
 expect 0 'nothing wrong' check "$shelf"

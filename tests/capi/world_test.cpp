@@ -6,6 +6,18 @@ namespace {
 using shelf::expect_ok;
 using shelf::expect_refused;
 
+/// What a robot reports of the first action.
+std::vector<double> first_seen(const tactus_world_options* options) {
+  tactus_world* made = nullptr;
+  expect_ok(tactus_world_create(shelf::scenario(), shelf::pose(1).data(), options, &made));
+  const shelf::World world(made);
+  std::vector<double> q(6);
+  tactus_observation seen = shelf::observation(q);
+  expect_ok(tactus_world_execute(world.get(), shelf::first_action(), &seen));
+  q.push_back(seen.contact);
+  return q;
+}
+
 TEST(World, RefusesPosesThatTheTargetCannotHave) {
   tactus_world* made = reinterpret_cast<tactus_world*>(8);
   std::vector<double> pose = shelf::pose(1);
@@ -27,6 +39,39 @@ TEST(World, RefusesOptionsOutOfRange) {
   tactus_world* made = nullptr;
   expect_refused(tactus_world_create(shelf::scenario(), shelf::pose(1).data(), &options, &made),
                  TACTUS_INVALID_ARGUMENT, "options.fineness");
+}
+
+TEST(World, IsAsTheScenarioSaysUnlessTold) {
+  tactus_world_options options{};
+  expect_ok(tactus_world_options_init(&options, sizeof options));
+  for (const double value :
+       {options.stopping_distance, options.encoder_error, options.missed_contacts, options.false_contacts})
+    EXPECT_LT(value, 0.0);
+  options.stopping_distance = 0.003, options.encoder_error = 0.0001;
+  options.missed_contacts = options.false_contacts = 0.5;
+  EXPECT_NE(first_seen(&options), first_seen(nullptr));
+  EXPECT_EQ(first_seen(&options), first_seen(&options));
+  const std::vector<double> before = first_seen(&options);
+  options.seed += 1;
+  EXPECT_NE(first_seen(&options), before);
+}
+
+TEST(World, TakesOptionsOfTheFirstVersion) {
+  tactus_world_options options{};
+  expect_ok(tactus_world_options_init(&options, 8));
+  EXPECT_EQ(first_seen(&options), first_seen(nullptr));
+}
+
+TEST(World, RefusesSensingOutOfRange) {
+  tactus_world_options options{};
+  expect_ok(tactus_world_options_init(&options, sizeof options));
+  options.missed_contacts = 0.6;
+  tactus_world* made = nullptr;
+  expect_refused(tactus_world_create(shelf::scenario(), shelf::pose(1).data(), &options, &made),
+                 TACTUS_INVALID_ARGUMENT, "missed_contacts");
+  options.missed_contacts = -1.0, options.encoder_error = shelf::nan;
+  expect_refused(tactus_world_create(shelf::scenario(), shelf::pose(1).data(), &options, &made),
+                 TACTUS_INVALID_ARGUMENT, "encoder_error");
 }
 
 TEST(World, KeepsTheTruth) {

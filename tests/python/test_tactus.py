@@ -111,6 +111,19 @@ def test_arrays_have_their_shapes(scenario, action):
     assert summary.covariance.shape == (6, 6) and summary.phase == "voxels"
 
 
+def test_an_imperfect_robot_is_the_same_for_the_same_seed(scenario, action):
+    def seen(seed):
+        world = tactus.World(scenario, scenario.sample_pose(1), seed=seed, stopping_distance=0.002, encoder_error=0.0001)
+        return world.execute(action).joints
+
+    perfect = tactus.World(scenario, scenario.sample_pose(1)).execute(action).joints
+    assert np.array_equal(seen(3), seen(3)) and not np.array_equal(seen(3), seen(4))
+    assert not np.array_equal(seen(3), perfect)
+    np.testing.assert_allclose(seen(3), perfect, atol=0.05)
+    with pytest.raises(tactus.InvalidArgument, match="missed_contacts"):
+        tactus.World(scenario, scenario.sample_pose(1), missed_contacts=0.6)
+
+
 # --- the loop, three times
 
 @pytest.fixture(scope="module")
@@ -142,6 +155,16 @@ def test_command_goes_the_same_way_and_writes_json_and_record(loop_in_c, tmp_pat
         trial["travel_m"] + 0.05 * trial["rotation_rad"] + 0.005 * trial["actions"], rel=1e-6)
     check_record(json.loads(record.read_text()), trial)
     assert record.stat().st_size < 6e6
+
+
+def test_command_simulates_an_imperfect_robot():
+    def trial(*options):
+        return json.loads("\n".join(run(BUILD / "bin" / "tactus", "run", SHELF, "--seed", SEED, "--budget-expansions",
+                                        EXPANSIONS, "--json", "-", *options)))["trials"][0]
+
+    perfect, other = trial(), trial("--stopping-distance", "0.001", "--false-contacts", "0.5")
+    assert list(other) == list(perfect)
+    assert other["travel_m"] != perfect["travel_m"] and other["true_pose"] == perfect["true_pose"]
 
 
 def check_record(record, trial):

@@ -140,7 +140,8 @@ TEST_F(ScenarioDescription, HasDefaultsForAllButTheTask) {
   EXPECT_EQ(d.robot.start, (std::vector<double>{0.0, -pi / 2, pi}));
   EXPECT_EQ(d.tool.mesh.scale, Vector3::Ones());
   EXPECT_TRUE(d.world.empty());
-  EXPECT_EQ(d.target.target_from_seated_tool.translation(), Vector3(0, 0, 0.01));
+  ASSERT_EQ(d.target.target_from_seated_tool.size(), 1u);
+  EXPECT_EQ(d.target.target_from_seated_tool[0].translation(), Vector3(0, 0, 0.01));
   EXPECT_EQ(d.target.approach_axis, Vector3(0, 0, -1));
   EXPECT_EQ(d.target.tolerance.position, 0.003);
   EXPECT_EQ(d.target.tolerance.angle, 0.15);
@@ -230,6 +231,25 @@ shelf.yaml:17: world[1].name: found "a" a second time, expected a name of its ow
 shelf.yaml:19: belief.kind: found "particle", expected hierarchical or particles (did you mean particles?)
 shelf.yaml:20: belief.delta: found 2.5, expected a whole number of at least 1
 shelf.yaml:21: planner: found "fast", expected a map)");
+}
+
+TEST_F(ScenarioDescription, TakesSeveralSeats) {
+  const auto seats = [&](const std::string& list) {
+    return parse(replaced(smallest, "{xyz: [0, 0, 0.01]}", list)).target.target_from_seated_tool;
+  };
+  const std::vector<geometry::Pose> two = seats("[{xyz: [0, 0, 0.02]}, {rpy: [0, 0, pi]}]");
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[0].translation(), Vector3(0, 0, 0.02));
+  EXPECT_TRUE(two[1].isApprox(geometry::pose_from({0, 0, 0, 0, 0, pi})));
+  EXPECT_EQ(seats("[{}]").size(), 1u);
+
+  const auto expect_wrong = [&](const std::string& list, const std::string& mistake) {
+    expect_mistake(replaced(smallest, "{xyz: [0, 0, 0.01]}", list), "9: target.seated" + mistake);
+  };
+  expect_wrong("[]", ": found a list of 0, expected a map or a list of maps");
+  expect_wrong("0.01", ": found 0.01, expected a map or a list of maps");
+  expect_wrong("[{}, 1]", "[1]: found 1, expected a map");
+  expect_wrong("[{}, {yaw: 1}]", "[1].yaw: found a key that isn't known, expected xyz or rpy");
 }
 
 TEST_F(ScenarioDescription, RefusesWrongTypes) {

@@ -23,8 +23,8 @@ Scene random_scene(Rng& rng) {
     scene.prior.width[d] = rng.below(2) == 0 ? 0.0 : rng.uniform(0.0, d < 3 ? 0.2 : rng.below(4) == 0 ? 2.0 * pi : 0.6);
   }
   scene.target.approach_axis = Vector3(rng.normal(), rng.normal(), rng.normal()).normalized();
-  scene.target.target_from_seated =
-      geometry::pose_from({0.01, 0.02, -0.03, rng.uniform(-3, 3), rng.uniform(-1, 1), rng.uniform(-3, 3)});
+  scene.target.target_from_seated = {
+      geometry::pose_from({0.01, 0.02, -0.03, rng.uniform(-3, 3), rng.uniform(-1, 1), rng.uniform(-3, 3)})};
   return scene;
 }
 
@@ -97,6 +97,34 @@ TEST(Seated, IsWithinTheToleranceAndNotBeyond) {
     EXPECT_TRUE(scene.is_seated(seated * Eigen::AngleAxisd(0.99 * scene.target.angle_tolerance, direction), target));
     EXPECT_FALSE(scene.is_seated(seated * Eigen::AngleAxisd(1.01 * scene.target.angle_tolerance, direction), target));
   }
+}
+
+TEST(Seated, IsAtAnyOfTheSeats) {
+  Rng rng(5);
+  Scene scene = small_scene();
+  const Pose first = scene.target.target_from_seated.front();
+  const Pose second = geometry::pose_from({0, 0, 0, pi, 0, 0}) * first;
+  for (int i = 0; i < 20; ++i) {
+    const Pose target = scene.prior.sample(rng);
+    scene.target.target_from_seated = {first};
+    EXPECT_FALSE(scene.is_seated(target * second, target));
+    scene.target.target_from_seated = {first, second};
+    EXPECT_TRUE(scene.is_seated(scene.seated(target, 0), target));
+    EXPECT_TRUE(scene.is_seated(scene.seated(target, 1), target));
+    EXPECT_FALSE(scene.is_seated(target * geometry::pose_from({0, 0, 0, 0.5 * pi, 0, 0}) * first, target));
+  }
+}
+
+TEST(Seated, IsAtOneSeatForAllOfACell) {
+  Scene scene = small_scene();
+  const Pose first = scene.target.target_from_seated.front(), target = scene.prior.central_pose();
+  const double apart = 1.5 * scene.target.angle_tolerance;
+  scene.target.target_from_seated = {first, geometry::pose_from({0, 0, 0, apart, 0, 0}) * first};
+  const Pose between = target * geometry::pose_from({0, 0, 0, 0.5 * apart, 0, 0}) * first;
+  EXPECT_TRUE(scene.is_seated(between, target));
+  EXPECT_TRUE(scene.is_seated(between, target, {0, 0, 0, 0.2 * scene.target.angle_tolerance, 0, 0}));
+  EXPECT_FALSE(scene.is_seated(between, target, {0, 0, 0, 0.3 * scene.target.angle_tolerance, 0, 0}));
+  EXPECT_TRUE(scene.is_seated(scene.seated(target, 1), target, {0, 0, 0, 0.9 * scene.target.angle_tolerance, 0, 0}));
 }
 
 }  // namespace
