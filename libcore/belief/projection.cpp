@@ -109,7 +109,7 @@ PoseVector inside(const scene::Prior& prior, PoseVector v) {
 
 std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed) {
   const double lever = 0.5 * geometry::diameter(task.scene().target.mesh);
-  PoseVector at = seed;
+  PoseVector at = inside(task.scene().prior, seed);
   for (int step = 0; step < steps; ++step) {
     if (reproduces(task, history, geometry::pose_from(at))) return Projection{at, true};
     const Demands demands = demands_of(task, history, at);
