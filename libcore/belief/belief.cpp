@@ -12,7 +12,6 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr std::size_t tries_per_pose = 2;     // of projections
 constexpr std::size_t least_trial = 24;       // projections after which it is asked whether they pay:
 constexpr std::size_t pays_from = 12;         // one in so many is exact
 constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
@@ -137,38 +136,54 @@ std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) co
   return poses;
 }
 
-/// A pose to start from: anywhere in a cell, or three times in four not far from one that was found before.
-PoseVector Belief::seed_for(const std::vector<PoseVector>& found, support::Rng& rng) const {
+/// What draws at random come to, by their worth for planning.
+struct Belief::Drawn {
+  std::vector<PoseVector> exact, near;
+
+  void add(const std::optional<Projection>& projection) {
+    if (projection) (projection->exact ? exact : near).push_back(projection->pose);
+  }
+};
+
+/// Poses brought into agreement with the history from anywhere in the cells: up to `count` tries, fewer if it does not
+/// pay.
+Belief::Drawn Belief::draw_afresh(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const {
+  Drawn drawn;
+  for (std::size_t tried = 0; tried < count && deadline.used_fraction() < 0.5; ++tried) {
+    if (tried >= least_trial && drawn.exact.size() * pays_from < tried) break;
+    drawn.add(projected(task(), history_, cells_->draw_in(cells_->draw_cell(rng), rng)));
+  }
+  return drawn;
+}
+
+/// A pose about a cell's width from another.
+PoseVector Belief::beside(const PoseVector& from, support::Rng& rng) const {
   const Cell cell = cells_->draw_cell(rng);
-  PoseVector seed = cells_->draw_in(cell, rng);
-  if (found.empty() || rng.below(4) == 0) return seed;
-  const PoseVector& from = found[rng.below(found.size())];
+  const PoseVector inside = cells_->draw_in(cell, rng);
   const double size = rng.uniform(0.0, 2.0);
-  for (int d = 0; d < 6; ++d) seed[d] = from[d] + size * (seed[d] - cell.centre[d]);
+  PoseVector seed = from;
+  for (int d = 0; d < 6; ++d) seed[d] += size * (inside[d] - cell.centre[d]);
   return seed;
 }
 
 std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known,
                                const support::Deadline& deadline) const {
-  std::vector<PoseVector> exact, near, refuted;
-  for (const Pose& pose : known)
-    (reproduces(task(), history_, pose) ? exact : refuted).push_back(geometry::pose_vector(pose));
-  const std::size_t fair_trial = refuted.size() + least_trial;
-  const auto goes_on = [&, before = exact.size()](std::size_t tried) {
-    const bool pays = tried < fair_trial || (exact.size() - before) * pays_from >= tried;
-    return pays && tried < tries_per_pose * count && exact.size() < count && deadline.used_fraction() < 0.5;
-  };
-  for (std::size_t tried = 0; goes_on(tried); ++tried) {
-    const PoseVector seed = tried < refuted.size() ? refuted[tried] : seed_for(exact.empty() ? near : exact, rng);
-    const auto drawn = projected(task(), history_, seed);
-    if (drawn) (drawn->exact ? exact : near).push_back(drawn->pose);
+  Drawn drawn = draw_afresh(count, rng, deadline);
+  for (const Pose& pose : known) {
+    if (drawn.exact.size() >= count || deadline.used_fraction() >= 0.5) break;
+    drawn.add(projected(task(), history_, geometry::pose_vector(pose)));
   }
   const std::size_t least = count / least_share;
-  for (std::size_t i = 0; i < near.size() && exact.size() < least; ++i)
-    if (contains(geometry::pose_from(near[i]))) exact.push_back(near[i]);
-  while (exact.size() < least) exact.push_back(cells_->draw_in(cells_->draw_cell(rng), rng));
+  for (std::size_t tried = 0; tried < least && drawn.exact.size() < least && deadline.used_fraction() < 0.5; ++tried) {
+    const std::vector<PoseVector>& found = drawn.exact.empty() ? drawn.near : drawn.exact;
+    if (found.empty()) break;
+    drawn.add(projected(task(), history_, beside(found[rng.below(found.size())], rng)));
+  }
   std::vector<Pose> poses;
-  for (const PoseVector& v : exact) poses.push_back(geometry::pose_from(v));
+  for (const PoseVector& v : drawn.exact) poses.push_back(geometry::pose_from(v));
+  for (std::size_t i = 0; i < drawn.near.size() && poses.size() < least; ++i)
+    if (const Pose pose = geometry::pose_from(drawn.near[i]); contains(pose)) poses.push_back(pose);
+  while (poses.size() < least) poses.push_back(geometry::pose_from(cells_->draw_in(cells_->draw_cell(rng), rng)));
   return poses;
 }
 

@@ -86,8 +86,8 @@ class Belief {
 
   /// Up to `count` poses drawn from all over the cells that reproduce the whole history exactly (phase 2 only). Where
   /// they are hard to find fewer; at least a third is made up then by poses that come near, or are anywhere in a cell.
-  /// `known`: poses drawn for an earlier state of this belief; those that still hold are taken as they are, and the
-  /// others brought back if they can be. Looks no further once half of a budget in seconds is used up.
+  /// `known`: poses drawn for an earlier state of this belief; they are brought back to the history where it is hard to
+  /// find poses afresh. Looks no further once half of a budget in seconds is used up.
   std::vector<Pose> draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known = {},
                          const support::Deadline& deadline = support::Deadline::unlimited()) const;
 
@@ -108,7 +108,9 @@ class Belief {
   bool learn(const std::vector<const Trace*>& traces);
   bool learn_anew();
   bool hand_over();
-  PoseVector seed_for(const std::vector<PoseVector>& found, support::Rng& rng) const;
+  struct Drawn;
+  Drawn draw_afresh(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const;
+  PoseVector beside(const PoseVector& from, support::Rng& rng) const;
   void doubt(const Belief& before);
 
   std::shared_ptr<const Model> model_;
