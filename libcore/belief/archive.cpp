@@ -152,6 +152,8 @@ void write_trace(ByteWriter& to, const Trace& trace) {
   to.u8(trace.contact ? 1 : 0);
   to.u8(trace.doubted ? 1 : 0);
   to.u64(trace.outcome);
+  to.u64(trace.touch);
+  to.f64(trace.slack);
   action::write_path(to, trace.path);
 }
 
@@ -162,8 +164,13 @@ Trace read_trace(ByteReader& from, const Task& task) {
   trace.contact = from.flag("contact of an observation");
   trace.doubted = from.flag("doubt of an observation");
   trace.outcome = static_cast<std::size_t>(from.u64("outcome of an observation"));
+  trace.touch = static_cast<std::size_t>(from.u64("touch of an observation"));
+  trace.slack = from.finite("slack of an observation");
   trace.path = action::read_path(from, task.scene().robot->dof(), trace.contact ? 2 : 1, "path of an observation");
-  trace.touch = trace.path.size() - (trace.contact ? 1 : 0);
+  if (trace.contact ? trace.touch >= trace.path.size() : trace.touch != trace.path.size())
+    from.fail("touch of an observation", std::to_string(trace.touch),
+              (trace.contact ? "less than " : "") + std::to_string(trace.path.size()));
+  if (trace.slack < 0.0) from.fail("slack of an observation", std::to_string(trace.slack), "not less than 0");
   trace.bodies = BodyPath(task.bodies(), trace.path);
   return trace;
 }
@@ -196,7 +203,7 @@ Belief Belief::restore(std::shared_ptr<const Model> model, const std::uint8_t* b
   const Task& task = belief.task();
   belief.q_ = action::read_joints(from, task.scene().robot->dof(), "configuration");
   belief.health_ = from.flag("health") ? Health::contradicted : Health::good;
-  const std::size_t observations = from.count(8 + 4 + 2 + 8 + 8, "observations");
+  const std::size_t observations = from.count(8 + 4 + 2 + 8 + 8 + 8 + 8, "observations");
   for (std::size_t i = 0; i < observations; ++i) belief.history_.push_back(read_trace(from, task));
   const bool in_pose_phase = from.flag("phase");
   if (!in_pose_phase && belief.model_->options.kind == Kind::particles)

@@ -15,6 +15,7 @@ using support::Status;
 constexpr std::size_t least_trial = 24;       // projections after which it is asked whether they pay:
 constexpr std::size_t pays_from = 12;         // one in so many is exact
 constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
+constexpr std::size_t unproved_share = 8;     // of them anywhere in a cell, for what no other speaks for
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
 
 }  // namespace
@@ -169,8 +170,9 @@ PoseVector Belief::beside(const PoseVector& from, support::Rng& rng) const {
 std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known,
                                const support::Deadline& deadline) const {
   Drawn drawn = draw_afresh(count, rng, deadline);
+  const bool is_hard = drawn.exact.size() < count / least_share;
   for (const Pose& pose : known) {
-    if (drawn.exact.size() >= count || deadline.used_fraction() >= 0.5) break;
+    if (drawn.exact.size() + count / unproved_share >= count || deadline.used_fraction() >= 0.5) break;
     drawn.add(projected(task(), history_, geometry::pose_vector(pose)));
   }
   const std::size_t least = count / least_share;
@@ -183,7 +185,8 @@ std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::
   for (const PoseVector& v : drawn.exact) poses.push_back(geometry::pose_from(v));
   for (std::size_t i = 0; i < drawn.near.size() && poses.size() < least; ++i)
     if (const Pose pose = geometry::pose_from(drawn.near[i]); contains(pose)) poses.push_back(pose);
-  while (poses.size() < least) poses.push_back(geometry::pose_from(cells_->draw_in(cells_->draw_cell(rng), rng)));
+  for (std::size_t i = 0; (is_hard && i < count / unproved_share) || poses.size() < least; ++i)
+    poses.push_back(geometry::pose_from(cells_->draw_in(cells_->draw_cell(rng), rng)));
   return poses;
 }
 

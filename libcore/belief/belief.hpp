@@ -85,7 +85,8 @@ class Belief {
   bool contains(const Pose& base_from_target) const;
 
   /// Up to `count` poses drawn from all over the cells that reproduce the whole history exactly (phase 2 only). Where
-  /// they are hard to find fewer; at least a third is made up then by poses that come near, or are anywhere in a cell.
+  /// they are hard to find, an eighth are anywhere in a cell, so that no part of the belief goes without a pose, and up
+  /// to a third come near only.
   /// `known`: poses drawn for an earlier state of this belief; they are brought back to the history where it is hard to
   /// find poses afresh. Looks no further once half of a budget in seconds is used up.
   std::vector<Pose> draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known = {},

@@ -53,18 +53,20 @@ struct Demands {
 Demands demands_of(const Task& task, const std::vector<Trace>& history, const PoseVector& v) {
   const contact::TargetContact& target = task.target_contact();
   const Pose pose = geometry::pose_from(v);
+  const double travelled_on = task.options().sensing.stopping_distance;
   Demands demands;
   for (const Trace& trace : history) {
     if (trace.doubted) continue;
     const std::size_t last = trace.bodies.size() - 1;
     if (trace.contact) {
       const contact::Nearest at_stop = target.nearest(trace.bodies, last, pose);
-      const double wanted = -close_enough;
-      if (at_stop.distance < 1.0) demands.add(derivative(task, v, pose, at_stop), wanted - at_stop.distance);
+      const double wanted = std::clamp(at_stop.distance, -close_enough - travelled_on, -close_enough);
+      if (at_stop.distance < 1.0 && at_stop.distance != wanted)
+        demands.add(derivative(task, v, pose, at_stop), wanted - at_stop.distance);
     }
     const auto hit = target.first_within(trace.bodies, pose, 0.0, 0);
-    if (!hit || (trace.contact && *hit == last)) continue;
-    const std::size_t end = trace.bodies.size() - (trace.contact ? 1 : 0);
+    const std::size_t end = trace.touch;
+    if (!hit || *hit >= end) continue;
     const std::size_t stride = std::max<std::size_t>(1, (end - *hit) / looks);
     contact::Nearest deepest;
     for (std::size_t i = *hit; i < end; i += stride) {

@@ -13,8 +13,9 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr double tie = 1e-9;  // rad or m: passes of one path through the same configuration
-constexpr int thirds = 50;    // of a search that leaves two thirds each time
+constexpr double tie = 1e-9;              // rad or m: passes of one path through the same configuration
+constexpr double touch_spacing = 0.0005;  // m
+constexpr int thirds = 50;                // of a search that leaves two thirds each time
 
 void check(const Task& task, const Observation& observation) {
   const int dof = task.scene().robot->dof();
@@ -92,10 +93,35 @@ double uncertain(const Task& task) {
   return task.options().stop_tolerance + sensing.stopping_distance + 2.0 * sensing.encoder_error;
 }
 
+/// The straight way to `to`, no point of the robot moving more than `touch_spacing` at a time.
+void add_closely(const Task& task, const JointVector& to, JointPath& path) {
+  const JointVector from = path.back();
+  const int count = std::max(1, static_cast<int>(std::ceil(bound(task, from, to) / touch_spacing)));
+  for (int k = 1; k <= count; ++k) path.push_back(k == count ? to : between(from, to, static_cast<double>(k) / count));
+}
+
 /// The configuration `back` metres of motion before the stop on its segment; the segment's beginning if that is nearer.
 JointVector backed_off(const Task& task, const JointVector& from, const JointVector& stop, double back) {
   const double length = bound(task, from, stop);
   return length <= back ? from : between(stop, from, back / length);
+}
+
+/// Adds a free configuration before a contact, and from there the way to the reported stop: closely where the robot may
+/// have travelled on, else the stop alone.
+void add_stop(const Task& task, const Action& action, const Observation& observation, const Stop& stop, Trace& trace) {
+  if (stop.segment == stop.last_free + 1) {
+    const JointVector free = backed_off(task, trace.path.back(), observation.q, uncertain(task));
+    if (free != trace.path.back()) trace.path.push_back(free);
+  }
+  trace.touch = trace.path.size();
+  if (task.options().sensing.stopping_distance > 0.0) {
+    trace.slack = touch_spacing;
+    for (std::size_t i = stop.last_free + 1; i < stop.segment; ++i) add_closely(task, action.path[i], trace.path);
+  }
+  if (trace.slack > 0.0)
+    add_closely(task, observation.q, trace.path);
+  else
+    trace.path.push_back(observation.q);
 }
 
 }  // namespace
@@ -154,33 +180,41 @@ Trace trace_of(const Task& task, const Action& action, const Observation& observ
                       ? stop.segment
                       : (stop.last_free + 1 == action.path.size() ? action.path.size() : stop.last_free);
   trace.path.assign(action.path.begin(), action.path.begin() + static_cast<std::ptrdiff_t>(stop.last_free) + 1);
-  if (observation.contact) {
-    const JointVector free = backed_off(task, trace.path.back(), observation.q, uncertain(task));
-    if (stop.segment == stop.last_free + 1 && free != trace.path.back()) trace.path.push_back(free);
-    trace.path.push_back(observation.q);
-  } else if (stop.segment > stop.last_free) {
-    trace.path.push_back(observation.q);
-  }
-  trace.touch = trace.path.size() - (trace.contact ? 1 : 0);
+  trace.touch = trace.path.size();
+  if (observation.contact)
+    add_stop(task, action, observation, stop, trace);
+  else if (stop.segment > stop.last_free)
+    trace.path.push_back(observation.q), trace.touch = trace.path.size();
   trace.bodies = BodyPath(task.bodies(), trace.path);
   return trace;
 }
 
-bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_target) {
+bool touched(const Task& task, const Trace& trace, const Pose& base_from_target, double radius) {
   const contact::TargetContact& target = task.target_contact();
-  if (trace.contact && !target.within(trace.bodies, trace.touch, base_from_target, target.margin())) return false;
-  const auto first = target.first_within(trace.bodies, base_from_target, 0.0, 0);
+  const double reach = radius + target.margin() + task.options().sensing.encoder_error + trace.slack;
+  return target.first_within(trace.bodies, base_from_target, reach, trace.touch).has_value();
+}
+
+/// No waypoint before the touch, from `from` on, is certainly in contact with the target at every pose of the set.
+bool may_be_free(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t from) {
+  if (from >= trace.touch) return true;
+  const contact::TargetContact& target = task.target_contact();
+  const double sound = radius + target.margin() + task.options().sensing.encoder_error;
+  const auto first = target.first_certain_contact(trace.bodies, base_from_target, sound, from);
+  return !first || *first >= trace.touch;
+}
+
+bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_target) {
+  if (trace.contact && !touched(task, trace, base_from_target, 0.0)) return false;
+  if (task.options().sensing.encoder_error > 0.0) return may_be_free(task, trace, base_from_target, 0.0, 0);
+  const auto first = task.target_contact().first_within(trace.bodies, base_from_target, 0.0, 0);
   return !first || *first >= trace.touch;
 }
 
 bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius,
                    std::size_t from) {
-  const contact::TargetContact& target = task.target_contact();
-  const double sound = radius + target.margin();
-  if (trace.contact && !target.within(trace.bodies, trace.touch, base_from_target, sound)) return false;
-  if (from >= trace.touch) return true;
-  const auto first = target.first_certain_contact(trace.bodies, base_from_target, sound, from);
-  return !first || *first >= trace.touch;
+  return (!trace.contact || touched(task, trace, base_from_target, radius)) &&
+         may_be_free(task, trace, base_from_target, radius, from);
 }
 
 bool reproduces(const Task& task, const std::vector<Trace>& history, const Pose& base_from_target) {
@@ -195,16 +229,14 @@ bool may_reproduce(const Task& task, const std::vector<Trace>& history, const Po
 }
 
 Fit fit(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t& from) {
-  const contact::TargetContact& target = task.target_contact();
-  if (trace.contact && !target.within(trace.bodies, trace.touch, base_from_target, radius + target.margin()))
-    return Fit::none;
+  if (trace.contact && !touched(task, trace, base_from_target, radius)) return Fit::none;
   if (from < trace.touch) {
+    const contact::TargetContact& target = task.target_contact();
     const auto first = target.first_within(trace.bodies, base_from_target, radius + target.margin(), from);
     from = std::min(first.value_or(trace.touch), trace.touch);
   }
   if (from == trace.touch) return trace.contact ? Fit::some : Fit::all;
-  const auto certain = target.first_certain_contact(trace.bodies, base_from_target, radius + target.margin(), from);
-  return certain && *certain < trace.touch ? Fit::none : Fit::some;
+  return may_be_free(task, trace, base_from_target, radius, from) ? Fit::some : Fit::none;
 }
 
 }  // namespace tactus::belief

@@ -34,8 +34,8 @@ struct Stop {
 /// stop tolerance or the encoder error), and `invalid_argument` for a NaN or a wrong number of joints.
 Stop locate(const Task& task, const Action& action, const Observation& observation);
 
-/// An action as far as it went, in a form in which it can be replayed against any pose: free at every waypoint but the
-/// last; there in contact, or free too.
+/// An action as far as it went, in a form in which it can be replayed against any pose: free at its waypoints; with
+/// contact, in touch at one of the last, between which and the reported stop a robot that travels on may have gone.
 struct Trace {
   std::uint64_t action_id = 0;
   action::Kind kind = action::Kind::move;
@@ -43,6 +43,7 @@ struct Trace {
   std::size_t outcome = 0;  ///< as predicted by a planner: the waypoint of the action at the end of the segment in
                             ///< which it stopped; the path's size without contact
   std::size_t touch = 0;    ///< free at the waypoints before this one; the path's size without contact
+  double slack = 0.0;       ///< m: a contact came within this of the waypoints from `touch` on, or of one of them
   bool doubted = false;     ///< it contradicts the others, and is left out: a contact that was none, for instance
   JointPath path;
   BodyPath bodies;

@@ -57,11 +57,14 @@ VoxelBelief::VoxelBelief(std::shared_ptr<const VoxelModel> model)
 
 void VoxelBelief::update(const Task& task, const Trace& trace) {
   const contact::SweptVoxels swept = contact::swept_voxels(task.bodies(), trace.bodies, model_->grid);
-  const std::size_t last = trace.bodies.size() - 1;
-  if (!trace.contact) return remove_free(swept.voxels, swept.entered_by(last));
-  remove_free(swept.voxels, last == 0 ? 0 : swept.entered_by(last - 1));
-  add_contact(
-      contact::contact_candidates(task.bodies(), trace.bodies, last, model_->grid, task.options().contact_margin));
+  const std::size_t free = trace.touch;
+  remove_free(swept.voxels, free == 0 ? 0 : swept.entered_by(free - 1));
+  if (!trace.contact) return;
+  const double slack = task.options().contact_margin + task.options().sensing.encoder_error + trace.slack;
+  Bitset candidates(model_->grid.size());
+  for (std::size_t stop = trace.touch; stop < trace.bodies.size(); ++stop)
+    candidates |= contact::contact_candidates(task.bodies(), trace.bodies, stop, model_->grid, slack);
+  add_contact(candidates);
 }
 
 void VoxelBelief::remove_free(const std::vector<std::uint32_t>& swept, std::size_t count) {

@@ -231,20 +231,48 @@ ContactInterval TargetContact::first_contact_interval(const BodyPath& path, cons
           first_certain_contact(path, base_from_target, radius).value_or(path.size())};
 }
 
-/// Looks at the middle and the corners of a piece, and where one beats what was found before, closer round about.
-void TargetContact::look_at(const Piece& piece, const Pose& target_from_body, Nearest& best) const {
-  const auto distance = [&](const Vector3& p) {
-    const geometry::DistanceBounds bounds = field_.bounds(p);
-    return bounds.lower > field_border ? 0.5 * (bounds.lower + bounds.upper) : field_.estimate(p);
+/// The pieces that came nearest to the target, by their middles and corners.
+struct TargetContact::Closest {
+  struct Entry {
+    double distance = 1e300;
+    const Piece* piece = nullptr;
+    Pose target_from_body = Pose::Identity();
   };
+  std::array<Entry, 3> entries;  ///< the nearest first
+
+  double bound() const { return entries.back().distance; }
+  void add(const Entry& entry) {
+    if (entry.distance >= bound()) return;
+    entries.back() = entry;
+    for (std::size_t i = entries.size() - 1; i > 0 && entries[i].distance < entries[i - 1].distance; --i)
+      std::swap(entries[i], entries[i - 1]);
+  }
+};
+
+double TargetContact::estimate(const Vector3& p) const {
+  const geometry::DistanceBounds bounds = field_.bounds(p);
+  return bounds.lower > field_border ? 0.5 * (bounds.lower + bounds.upper) : field_.estimate(p);
+}
+
+void TargetContact::look_at(const Piece& piece, const Pose& target_from_body, Closest& closest) const {
+  double least = 1e300;
+  const auto consider = [&](const Vector3& p) {
+    if (field_.bounds(p).lower < std::min(least, closest.bound())) least = std::min(least, estimate(p));
+  };
+  consider(target_from_body * piece.centre);
+  for (const Vector3& corner : piece.corners) consider(target_from_body * corner);
+  closest.add({least, &piece, target_from_body});
+}
+
+/// The deepest point of a piece, or the nearest, looked for where its quarters' corners are.
+void TargetContact::look_closely(const Piece& piece, const Pose& target_from_body, Nearest& best) const {
   Corners corners = geometry::transformed(piece.corners, target_from_body);
   Vector3 nearest = target_from_body * piece.centre;
-  double least = distance(nearest);
+  double least = estimate(nearest);
   const auto consider = [&](const Vector3& p) {
-    if (const double d = distance(p); d < least) least = d, nearest = p;
+    if (const double d = estimate(p); d < least) least = d, nearest = p;
   };
   for (const Vector3& corner : corners) consider(corner);
-  if (least - piece.radius >= best.distance) return;
   for (int halving = 0; halving < halvings; ++halving) {
     const Corners middle{0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0]),
                          0.5 * (corners[0] + corners[1])};
@@ -255,38 +283,41 @@ void TargetContact::look_at(const Piece& piece, const Pose& target_from_body, Ne
   if (least < best.distance) best.distance = least, best.point = nearest;
 }
 
-void TargetContact::nearest(const Body& body, const Pose& target_from_body, Nearest& best) const {
+void TargetContact::nearest(const Body& body, const Pose& target_from_body, Closest& closest) const {
   const kernel::Placement at = placement(target_from_body);
   std::array<std::pair<float, std::int32_t>, kernel::Walk::most_blocks> stack;
   std::size_t depth = 0;
   stack[depth++] = {-1e30f, body.balls().root()};
   while (depth > 0) {
     const auto [bound, index] = stack[--depth];
-    if (bound >= best.distance) continue;
+    if (bound >= closest.bound()) continue;
     const kernel::Block& block = body.balls().blocks()[index / 4];
     float lower[kernel::lanes], upper[kernel::lanes];
     kernel_.measure(block, image_.view(), at, lower, upper);
     std::array<std::pair<float, std::int32_t>, kernel::lanes> open;
     std::size_t count = 0;
     for (int lane = 0; lane < kernel::lanes; ++lane)
-      if (block.half[0][lane] > kernel::no_part && lower[lane] - block.radius[lane] < best.distance)
+      if (block.half[0][lane] > kernel::no_part && lower[lane] - block.radius[lane] < closest.bound())
         open[count++] = {lower[lane] - block.radius[lane], block.next[lane]};
     std::sort(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count), std::greater<>());
     for (std::size_t k = count; k-- > 0;)
-      if (open[k].second < 0) look_at(body.balls().pieces()[~open[k].second], target_from_body, best);
+      if (open[k].second < 0) look_at(body.balls().pieces()[~open[k].second], target_from_body, closest);
     for (std::size_t k = 0; k < count; ++k)
-      if (open[k].second >= 0 && open[k].first < best.distance) stack[depth++] = open[k];
+      if (open[k].second >= 0 && open[k].first < closest.bound()) stack[depth++] = open[k];
   }
 }
 
 Nearest TargetContact::nearest(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const {
-  Nearest result;
+  Closest closest;
   const Pose target_from_base = base_from_target.inverse();
   for (std::size_t body = 0; body < bodies_->size(); ++body) {
     const BodyPath::Range& near = path.near_region(body);
     if (waypoint >= near.begin && waypoint < near.end)
-      nearest(bodies_->body(body), target_from_base * path.base_from_body(waypoint, body), result);
+      nearest(bodies_->body(body), target_from_base * path.base_from_body(waypoint, body), closest);
   }
+  Nearest result;
+  for (const Closest::Entry& entry : closest.entries)
+    if (entry.piece != nullptr) look_closely(*entry.piece, entry.target_from_body, result);
   if (result.distance < field_border) result.distance = field_.exact(result.point);
   result.gradient = field_.gradient(result.point);
   return result;

@@ -70,8 +70,9 @@ class TargetContact {
     return reach(bodies_->body(body), target_from_body, threshold);
   }
 
-  /// An estimate of the deepest or nearest point at a waypoint, among the corners and middles of the pieces of the
-  /// bodies near the region. Nothing sound may rest on it.
+  /// The deepest or nearest point at a waypoint, of the bodies near the region, found to a tenth of a millimetre or so:
+  /// by the pieces whose corners and middles come nearest. Its distance is exact, but another point may be nearer:
+  /// nothing sound may rest on it. Some 20 us.
   Nearest nearest(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const;
 
   const Mesh& target() const { return target_; }
@@ -81,11 +82,14 @@ class TargetContact {
 
  private:
   struct Sides;
+  struct Closest;
   Reach reach(const Body& body, const Pose& target_from_body, double threshold) const;
   bool piece_hit(const Piece& piece, const Pose& target_from_body, const kernel::Placement& at, double threshold) const;
   bool crosses(const Piece& piece, const Pose& target_from_body, const kernel::Placement& at, double reach) const;
-  void look_at(const Piece& piece, const Pose& target_from_body, Nearest& best) const;
-  void nearest(const Body& body, const Pose& target_from_body, Nearest& best) const;
+  double estimate(const Vector3& p) const;
+  void look_at(const Piece& piece, const Pose& target_from_body, Closest& closest) const;
+  void look_closely(const Piece& piece, const Pose& target_from_body, Nearest& best) const;
+  void nearest(const Body& body, const Pose& target_from_body, Closest& closest) const;
   bool target_inside(const Body& body, const Pose& target_from_body) const;
   std::uint32_t near_waypoints(const BodyPath& path, std::size_t body, std::size_t block,
                                const kernel::Placement& target_from_base, double reach) const;

@@ -60,6 +60,11 @@ Bitset& Bitset::operator&=(const Bitset& other) {
   return *this;
 }
 
+Bitset& Bitset::operator|=(const Bitset& other) {
+  for (std::size_t w = 0; w < words_.size(); ++w) words_[w] |= other.words_[w];
+  return *this;
+}
+
 Bitset& Bitset::and_not(const Bitset& other) {
   for (std::size_t w = 0; w < words_.size(); ++w) words_[w] &= ~other.words_[w];
   return *this;

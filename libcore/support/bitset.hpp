@@ -36,6 +36,7 @@ class Bitset {
   std::size_t member(std::size_t rank) const;
 
   Bitset& operator&=(const Bitset& other);
+  Bitset& operator|=(const Bitset& other);
   Bitset& and_not(const Bitset& other);
   bool operator==(const Bitset&) const = default;
 

@@ -140,6 +140,7 @@ TEST(Voxels, AContactRemovesNothingThatTheRobotEnteredOnlyAtIt) {
   belief::Trace trace;
   trace.contact = true;
   trace.path = {joints({0.43, 0, 0, 0, 0, 0}), joints({0.434, 0, 0, 0, 0, 0}), joints({0.442, 0, 0, 0, 0, 0})};
+  trace.touch = 2;
   trace.bodies = contact::BodyPath(task().bodies(), trace.path);
   VoxelBelief voxels(model()->voxels);
   voxels.update(task(), trace);

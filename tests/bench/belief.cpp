@@ -112,9 +112,11 @@ std::vector<Row> cells(const Options& options) {
   const action::MotionPtr motion = action::probes(task, task.frame().region, task.home(), 9)[5];
   belief::Trace free, touched;
   free.path = motion->path;
+  free.touch = free.path.size();
   free.bodies = motion->bodies;
   touched.contact = true;
   touched.path.assign(free.path.begin(), free.path.begin() + static_cast<std::ptrdiff_t>(free.path.size() / 2));
+  touched.touch = touched.path.size() - 1;
   touched.bodies = contact::BodyPath(task.bodies(), touched.path);
   return {observed(task, free, "step-free", options), observed(task, touched, "step-contact", options)};
 }
