@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tactus/belief.h"
 
+#include "belief/modes.hpp"
 #include "handles.hpp"
 
 using namespace tactus;
@@ -27,6 +28,7 @@ tactus_summary summary_of(const belief::Summary& from) {
   tactus_summary summary{};
   summary.phase = static_cast<int32_t>(from.phase);
   summary.health = static_cast<int32_t>(from.health);
+  summary.doubted = static_cast<uint32_t>(from.doubted);
   summary.observations = from.observations;
   summary.contacts = from.contacts;
   summary.possibly_occupied = from.possibly_occupied;
@@ -153,6 +155,47 @@ tactus_status tactus_belief_poses(const tactus_belief* belief, double* poses, si
       write_pose(geometry::pose_from(cell.centre), out);
       out += 7;
     });
+  });
+}
+
+tactus_status tactus_belief_modes(const tactus_belief* belief, double* modes, size_t capacity, size_t* count) noexcept {
+  return guarded(__func__, [&] {
+    const Held held(belief);
+    std::vector<belief::Mode> found;
+    if (held.belief.phase() == belief::Phase::poses)
+      found = belief::modes_of(held.belief.cells(), held.belief.task().scene().prior);
+    double* out = room_for(found.size(), modes, capacity, count, "modes");
+    if (out == nullptr) return;
+    for (const belief::Mode& mode : found) {
+      *out++ = mode.mass;
+      out = std::copy(mode.mean.begin(), mode.mean.end(), out);
+      out = std::copy(mode.extent.begin(), mode.extent.end(), out);
+    }
+  });
+}
+
+tactus_status tactus_belief_history(const tactus_belief* belief, int32_t* events, size_t capacity,
+                                    size_t* count) noexcept {
+  return guarded(__func__, [&] {
+    const Held held(belief);
+    int32_t* out = room_for(held.belief.history().size(), events, capacity, count, "events");
+    if (out == nullptr) return;
+    for (const belief::Trace& trace : held.belief.history()) {
+      *out++ = static_cast<int32_t>(trace.kind);
+      *out++ = trace.contact ? 1 : 0;
+      *out++ = trace.doubted ? 1 : 0;
+    }
+  });
+}
+
+tactus_status tactus_belief_stops(const tactus_belief* belief, double* joints, size_t capacity,
+                                  size_t* count) noexcept {
+  return guarded(__func__, [&] {
+    const Held held(belief);
+    double* out = room_for(held.belief.history().size(), joints, capacity, count, "joints");
+    if (out == nullptr) return;
+    for (const belief::Trace& trace : held.belief.history())
+      out = std::copy_n(trace.path.back().data(), trace.path.back().size(), out);
   });
 }
 

@@ -94,7 +94,7 @@ typedef struct tactus_summary {
   uint32_t struct_size;
   int32_t phase;              /**< TACTUS_PHASE_VOXELS or TACTUS_PHASE_POSES */
   int32_t health;             /**< TACTUS_HEALTH_GOOD or TACTUS_HEALTH_CONTRADICTED */
-  uint32_t reserved;          /**< 0 */
+  uint32_t doubted;           /**< observations that are: see `tactus_belief_history` */
   uint64_t observations;      /**< taken in */
   uint64_t contacts;          /**< of them with contact */
   uint64_t possibly_occupied; /**< voxels; 0 in the pose phase */
@@ -119,6 +119,25 @@ TACTUS_API tactus_status tactus_belief_voxels(const tactus_belief* belief, doubl
 
 /** The centres of the cells of poses that the target may have; none in the voxel phase. `poses`: double (count x 7). */
 TACTUS_API tactus_status tactus_belief_poses(const tactus_belief* belief, double* poses, size_t capacity,
+                                             size_t* count) TACTUS_NOEXCEPT;
+
+/**
+ * The parts of the belief that hang together, the heaviest first; none in the voxel phase. `modes`: double (count x
+ * 13), of each its share of the belief (they sum to one), then the mean and the full widths of x y z roll pitch yaw.
+ * About a microsecond a cell.
+ */
+TACTUS_API tactus_status tactus_belief_modes(const tactus_belief* belief, double* modes, size_t capacity,
+                                             size_t* count) TACTUS_NOEXCEPT;
+
+/**
+ * What was done and felt, in order. `events`: int32_t (count x 3), of each the kind of the action
+ * (`tactus_action_kind`), 1 for a contact, and 1 if it is doubted: it contradicts the rest, and is left out.
+ */
+TACTUS_API tactus_status tactus_belief_history(const tactus_belief* belief, int32_t* events, size_t capacity,
+                                               size_t* count) TACTUS_NOEXCEPT;
+
+/** Where the robot stopped at each event of the history. `joints`: double (count x dof). */
+TACTUS_API tactus_status tactus_belief_stops(const tactus_belief* belief, double* joints, size_t capacity,
                                              size_t* count) TACTUS_NOEXCEPT;
 
 /** `*goal` is 1 if at the present configuration the tool is seated for every pose that the target may still have, else

@@ -15,6 +15,7 @@ using support::Status;
 constexpr std::size_t least_trial = 24;       // projections after which it is asked whether they pay:
 constexpr std::size_t pays_from = 12;         // one in so many is exact
 constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
+constexpr double fine_radius = 0.0004;        // m, of cells any pose of which comes near enough as it is
 constexpr std::size_t unproved_share = 8;     // of them anywhere in a cell, for what no other speaks for
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
 
@@ -152,7 +153,12 @@ Belief::Drawn Belief::draw_afresh(std::size_t count, support::Rng& rng, const su
   Drawn drawn;
   for (std::size_t tried = 0; tried < count && deadline.used_fraction() < 0.5; ++tried) {
     if (tried >= least_trial && drawn.exact.size() * pays_from < tried) break;
-    drawn.add(projected(task(), history_, cells_->draw_in(cells_->draw_cell(rng), rng)));
+    const Cell cell = cells_->draw_cell(rng);
+    const PoseVector seed = cells_->draw_in(cell, rng);
+    if (cells_->radius(cell) > fine_radius)
+      drawn.add(projected(task(), history_, seed));
+    else
+      drawn.add(Projection{seed, reproduces(task(), history_, geometry::pose_from(seed))});
   }
   return drawn;
 }
@@ -172,7 +178,8 @@ std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::
   Drawn drawn = draw_afresh(count, rng, deadline);
   const bool is_hard = drawn.exact.size() < count / least_share;
   for (const Pose& pose : known) {
-    if (drawn.exact.size() + count / unproved_share >= count || deadline.used_fraction() >= 0.5) break;
+    if (drawn.exact.size() + drawn.near.size() + count / unproved_share >= count || deadline.used_fraction() >= 0.5)
+      break;
     drawn.add(projected(task(), history_, geometry::pose_vector(pose)));
   }
   const std::size_t least = count / least_share;

@@ -39,7 +39,7 @@ struct Model {
 struct Summary {
   Phase phase = Phase::voxels;
   Health health = Health::good;
-  std::size_t observations = 0, contacts = 0;
+  std::size_t observations = 0, contacts = 0, doubted = 0;
   std::size_t possibly_occupied = 0;  ///< voxels; 0 in the pose phase
   double volume = 0.0;                ///< m^3 of PO; 0 in the pose phase
   std::size_t cells = 0;              ///< 0 in the voxel phase

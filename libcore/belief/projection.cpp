@@ -7,7 +7,7 @@ namespace tactus::belief {
 namespace {
 
 constexpr int steps = 8;
-constexpr std::size_t looks = 6;          // at waypoints along a stretch that should be free
+constexpr std::size_t looks = 3;          // at waypoints along a stretch that should be free
 constexpr double close_enough = 0.00005;  // m
 constexpr double clear_by = 0.00005;      // m, where the robot was free
 constexpr double near = 0.001;            // m by which a demand may be missed

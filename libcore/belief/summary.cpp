@@ -88,8 +88,10 @@ Summary Belief::summary() const {
   summary.phase = phase();
   summary.health = health_;
   summary.observations = history_.size();
-  summary.contacts = static_cast<std::size_t>(
-      std::count_if(history_.begin(), history_.end(), [](const Trace& t) { return t.contact; }));
+  for (const Trace& trace : history_) {
+    summary.contacts += trace.contact;
+    summary.doubted += trace.doubted;
+  }
   if (cells_)
     describe_cells(*cells_, task(), summary);
   else

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import library
-from .library import BeliefHandle, Object, call, pointer, rows, struct, value, vector
+from .library import BeliefHandle, Object, call, lib, pointer, rows, struct, value, vector
 
 KINDS = {"hierarchical": 1, "particles": 2}
 PHASES = {1: "voxels", 2: "poses"}
@@ -18,7 +18,8 @@ class Summary:
     """A belief in numbers; six numbers of a pose are x y z (m) roll pitch yaw (rad)."""
 
     phase: str              # "voxels" or "poses"
-    contradicted: bool      # an observation was impossible by all that was known, and was left out
+    contradicted: bool      # the observations contradicted each other: some are doubted, and left out
+    doubted: int            # how many
     observations: int
     contacts: int
     possibly_occupied: int  # voxels; 0 in the pose phase
@@ -28,6 +29,25 @@ class Summary:
     mean: np.ndarray        # of the target's pose (6)
     extent: np.ndarray      # full widths (6)
     covariance: np.ndarray  # (6 x 6)
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A part of a belief that hangs together; six numbers of a pose are x y z (m) roll pitch yaw (rad)."""
+
+    mass: float         # its share of the belief
+    mean: np.ndarray    # of the target's pose (6)
+    extent: np.ndarray  # full widths (6)
+
+
+@dataclass(frozen=True)
+class Event:
+    """An action and what was felt."""
+
+    kind: str      # of the action: "move", "turn", "sweep", "poke" or "insertion"
+    contact: bool
+    doubted: bool  # it contradicts the rest, and is left out
+    q: np.ndarray  # where the robot stopped (dof), rad or m
 
 
 class Belief(Object):
@@ -78,7 +98,7 @@ class Belief(Object):
     def summary(self):
         s = struct(library.SummaryStruct, "tactus_summary_init")
         call("tactus_belief_summary", self.handle, ctypes.byref(s))
-        return Summary(PHASES[s.phase], s.health != 0, s.observations, s.contacts, s.possibly_occupied, s.volume,
+        return Summary(PHASES[s.phase], s.health != 0, s.doubted, s.observations, s.contacts, s.possibly_occupied, s.volume,
                        s.cells, s.bits, np.array(s.mean), np.array(s.extent), np.array(s.covariance).reshape(6, 6))
 
     @property
@@ -90,6 +110,19 @@ class Belief(Object):
     def poses(self):
         """Centres of the cells of poses that the target may have (n x 7); none in the voxel phase."""
         return rows("tactus_belief_poses", self.handle, width=7)
+
+    @property
+    def modes(self):
+        """The parts of the belief that hang together, the heaviest first: a list of `Mode`; empty in the voxel phase."""
+        return [Mode(row[0], row[1:7], row[7:13]) for row in rows("tactus_belief_modes", self.handle, width=13)]
+
+    @property
+    def history(self):
+        """What was done and felt: a list of `Event`."""
+        events = rows("tactus_belief_history", self.handle, width=3, dtype=np.int32)
+        stops = rows("tactus_belief_stops", self.handle, width=self._dof)
+        return [Event(lib.tactus_action_kind_name(int(kind)).decode(), bool(contact), bool(doubted), q)
+                for (kind, contact, doubted), q in zip(events, stops)]
 
     @property
     def is_goal(self):

@@ -57,7 +57,7 @@ class BeliefOptions(ctypes.Structure):
 
 
 class SummaryStruct(ctypes.Structure):
-    _fields_ = [("struct_size", c_uint32), ("phase", c_int32), ("health", c_int32), ("reserved", c_uint32),
+    _fields_ = [("struct_size", c_uint32), ("phase", c_int32), ("health", c_int32), ("doubted", c_uint32),
                 ("observations", c_uint64), ("contacts", c_uint64), ("possibly_occupied", c_uint64),
                 ("volume", c_double), ("cells", c_uint64), ("bits", c_double), ("mean", c_double * 6),
                 ("extent", c_double * 6), ("covariance", c_double * 36)]
@@ -129,6 +129,9 @@ CHECKED = {
     "tactus_belief_summary": [_belief, POINTER(SummaryStruct)],
     "tactus_belief_voxels": [_belief, _doubles, c_size_t, _size],
     "tactus_belief_poses": [_belief, _doubles, c_size_t, _size],
+    "tactus_belief_modes": [_belief, _doubles, c_size_t, _size],
+    "tactus_belief_history": [_belief, POINTER(c_int32), c_size_t, _size],
+    "tactus_belief_stops": [_belief, _doubles, c_size_t, _size],
     "tactus_belief_is_goal": [_belief, _flag],
     "tactus_belief_contains": [_belief, _doubles, _flag],
     "tactus_belief_save": [_belief, _bytes, c_size_t, _size],

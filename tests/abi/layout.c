@@ -43,6 +43,7 @@ SIZE(tactus_belief_options, 8);
 AT(tactus_summary, struct_size, 0);
 AT(tactus_summary, phase, 4);
 AT(tactus_summary, health, 8);
+AT(tactus_summary, doubted, 12);
 AT(tactus_summary, observations, 16);
 AT(tactus_summary, contacts, 24);
 AT(tactus_summary, possibly_occupied, 32);

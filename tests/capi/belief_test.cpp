@@ -118,6 +118,35 @@ TEST(Belief, AfterAnErrorEverythingIsAsItWas) {
   expect_refused(tactus_belief_step(belief.get(), nullptr, &seen), TACTUS_INVALID_ARGUMENT, "action");
 }
 
+TEST(Belief, TellsItsHistoryAndItsModes) {
+  const shelf::Belief belief = shelf::belief(shelf::scenario(), TACTUS_BELIEF_PARTICLES);
+  std::size_t count = 7;
+  expect_ok(tactus_belief_history(belief.get(), nullptr, 0, &count));
+  EXPECT_EQ(count, 0u);
+  const std::vector<double> path = shelf::waypoints(shelf::first_action());
+  std::vector<double> q(path.begin() + 6, path.begin() + 12);
+  const tactus_observation seen = shelf::observation(q, true);  // a contact in the air: nothing can be there
+  expect_ok(tactus_belief_step(belief.get(), shelf::first_action(), &seen));
+  std::vector<int32_t> events(3);
+  expect_ok(tactus_belief_history(belief.get(), events.data(), 1, &count));
+  tactus_action_properties properties{};
+  expect_ok(tactus_action_properties_init(&properties, sizeof properties));
+  expect_ok(tactus_action_info(shelf::first_action(), &properties));
+  EXPECT_EQ(events, (std::vector<int32_t>{properties.kind, 1, 1}));
+  EXPECT_EQ(summary(belief).doubted, 1u);
+  EXPECT_EQ(summary(belief).health, TACTUS_HEALTH_CONTRADICTED);
+  std::vector<double> stop(6);
+  expect_ok(tactus_belief_stops(belief.get(), stop.data(), 1, &count));
+  EXPECT_EQ(stop, q);
+  expect_refused(tactus_belief_stops(belief.get(), stop.data(), 0, &count), TACTUS_BUFFER_TOO_SMALL, "joints");
+
+  std::vector<double> mode(13);
+  expect_ok(tactus_belief_modes(belief.get(), mode.data(), 1, &count));
+  ASSERT_EQ(count, 1u);
+  EXPECT_NEAR(mode[0], 1.0, 1e-12);
+  EXPECT_NEAR(mode[8], summary(belief).extent[1], 1e-12);
+}
+
 TEST(Belief, AStopWithoutContactMidwayIsLegal) {
   const shelf::Belief belief = shelf::belief();
   const std::vector<double> path = shelf::waypoints(shelf::first_action());

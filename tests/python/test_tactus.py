@@ -111,6 +111,16 @@ def test_arrays_have_their_shapes(scenario, action):
     assert summary.covariance.shape == (6, 6) and summary.phase == "voxels"
 
 
+def test_a_belief_tells_its_history_and_its_modes(scenario, action):
+    belief = tactus.Belief(scenario, kind="particles")
+    belief.step(action, tactus.Observation(action.waypoints[1], contact=True))
+    (event,) = belief.history
+    assert (event.kind, event.contact, event.doubted) == (action.kind, True, True)
+    np.testing.assert_array_equal(event.q, action.waypoints[1])
+    assert belief.summary.doubted == 1
+    assert sum(mode.mass for mode in belief.modes) == pytest.approx(1.0)
+
+
 def test_an_imperfect_robot_is_the_same_for_the_same_seed(scenario, action):
     def seen(seed):
         world = tactus.World(scenario, scenario.sample_pose(1), seed=seed, stopping_distance=0.002, encoder_error=0.0001)
