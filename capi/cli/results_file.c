@@ -41,7 +41,7 @@ bool save_results(const char* path, const run_result* run) {
   return saved;
 }
 
-/* --- taking over */
+/* --- reading */
 
 /* All of a file and a 0 after it; NULL if it can't be read. */
 static char* read_all(FILE* in) {
@@ -57,49 +57,45 @@ static char* read_all(FILE* in) {
   return text;
 }
 
-/* Whether the trials are of this run. */
-static bool belong(const char* path, const run_result* found, uint64_t first, int count, const run_setting* expected) {
-  setting_difference difference;
-  if (!same_setting(&found->setting, expected, &difference)) {
-    fprintf(stderr,
-            "tactus run: %s: found trials with %s %s, expected %s as asked for now; ask for the same to resume them, "
-            "or write to another file\n",
-            path, difference.name, difference.found, difference.expected);
-    return false;
-  }
-  for (int i = 0; i < found->count; ++i) {
-    const uint64_t seed = found->trials[i].seed;
-    if (seed - first < (uint64_t)count) continue;
-    fprintf(stderr,
-            "tactus run: %s: found a trial of seed %" PRIu64 ", expected --seed %" PRIu64
-            " and the %d from there on; ask for it too, or write to another file\n",
-            path, seed, first, count);
-    return false;
-  }
-  return true;
-}
-
-static bool take_over(const char* path, const char* text, uint64_t first, int count, run_result* run) {
+static bool read_results(const char* path, const char* text, run_result* run) {
   json_reader reader = {path, text, text};
-  run_result found;
-  memset(&found, 0, sizeof found);
-  const bool read = read_json(&reader, &found);
-  if (!read) fprintf(stderr, "tactus run: %s: not whole, left as it is; mend it, or write to another file\n", path);
-  if (!read || !belong(path, &found, first, count, &run->setting)) {
-    free(found.trials);
-    return false;
-  }
-  *run = found;
-  fprintf(stderr, "%s: %d of %d trials are there\n", path, run->count, count);
-  return true;
+  if (read_json(&reader, run)) return true;
+  fprintf(stderr, "tactus run: %s: not whole, left as it is; mend it, or write to another file\n", path);
+  return false;
 }
 
-bool take_over_results(const char* path, uint64_t first, int count, run_result* run) {
+bool load_results(const char* path, run_result* run) {
   FILE* in = fopen(path, "r");
   if (in == NULL) return errno == ENOENT || failed(path, "could not be opened");
   char* text = read_all(in);
-  const bool taken = text != NULL ? take_over(path, text, first, count, run) : failed(path, "could not be read");
+  const bool loaded = text != NULL ? read_results(path, text, run) : failed(path, "could not be read");
   free(text);
   fclose(in);
-  return taken;
+  return loaded;
+}
+
+/* --- taking over */
+
+static bool seeds_belong(const char* path, const run_result* run, uint64_t first, int count) {
+  for (int i = 0; i < run->count; ++i) {
+    const uint64_t seed = run->trials[i].seed;
+    if (seed - first < (uint64_t)count) continue;
+    fprintf(stderr,
+            "tactus run: %s: found a trial of seed %" PRIu64 ", expected %d seeds from %" PRIu64
+            " on; ask for it too, or write to another file\n",
+            path, seed, count, first);
+    return false;
+  }
+  return true;
+}
+
+bool trials_belong(const char* path, const run_result* run, const run_setting* setting, uint64_t first, int count) {
+  setting_difference difference;
+  if (run->count == 0) return true;
+  if (same_setting(&run->setting, setting, &difference)) return seeds_belong(path, run, first, count);
+  fprintf(stderr,
+          "tactus run: %s: found trials with %s %s, expected %s as asked for now; ask for the same to go on with them, "
+          "or write to another file\n",
+          path, difference.name, difference.found, difference.expected);
+  return false;
 }

@@ -12,8 +12,10 @@ bool is_replaceable(const char* path);
 /* Puts the results in the place of what the file holds, at once: they are first written beside it. */
 bool save_results(const char* path, const run_result* run);
 
-/* Takes over the trials of a file that may be there. `run` has its setting and no trials; those of the file must be of
- * the same setting, with seeds of `first` to `first + count - 1`. The file is left as it is. */
-bool take_over_results(const char* path, uint64_t first, int count, run_result* run);
+/* Reads a file that may be there into an empty `run`. */
+bool load_results(const char* path, run_result* run);
+
+/* Whether what was loaded from `path` is part of a run of this setting with `count` seeds from `first` on. */
+bool trials_belong(const char* path, const run_result* run, const run_setting* setting, uint64_t first, int count);
 
 #endif

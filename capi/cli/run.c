@@ -71,22 +71,24 @@ static bool load(run* r) {
 
 static double or_nan(bool given, double value) { return given ? value : (double)NAN; }
 
-static void describe(const run* r, run_setting* setting) {
+static run_setting setting_of(const run* r) {
+  run_setting setting;
   const run_options* o = &r->options;
   const tactus_planner_options* planner = &r->setup.planner;
   const bool particles = r->setup.belief.kind == TACTUS_BELIEF_PARTICLES;
   const char* name = "";
   tactus_scenario_name(r->scenario, &name);
-  snprintf(setting->scenario, sizeof setting->scenario, "%s", name);
-  snprintf(setting->solver, sizeof setting->solver, "%s", tactus_solver_name(planner->solver));
-  snprintf(setting->belief, sizeof setting->belief, "%s", particles ? "particles" : "hierarchical");
-  setting->budget_seconds = or_nan(isfinite(planner->budget_seconds), planner->budget_seconds);
-  setting->budget_expansions = planner->budget_expansions;
-  for (int i = 0; i < 6; ++i) setting->true_pose[i] = or_nan(o->has_true_pose, o->true_pose[i]);
-  setting->stopping_distance = or_nan(o->stopping_distance >= 0.0, o->stopping_distance);
-  setting->encoder_error = or_nan(o->encoder_error >= 0.0, o->encoder_error);
-  setting->missed_contacts = or_nan(o->missed_contacts >= 0.0, o->missed_contacts);
-  setting->false_contacts = or_nan(o->false_contacts >= 0.0, o->false_contacts);
+  snprintf(setting.scenario, sizeof setting.scenario, "%s", name);
+  snprintf(setting.solver, sizeof setting.solver, "%s", tactus_solver_name(planner->solver));
+  snprintf(setting.belief, sizeof setting.belief, "%s", particles ? "particles" : "hierarchical");
+  setting.budget_seconds = or_nan(isfinite(planner->budget_seconds), planner->budget_seconds);
+  setting.budget_expansions = planner->budget_expansions;
+  for (int i = 0; i < 6; ++i) setting.true_pose[i] = or_nan(o->has_true_pose, o->true_pose[i]);
+  setting.stopping_distance = or_nan(o->stopping_distance >= 0.0, o->stopping_distance);
+  setting.encoder_error = or_nan(o->encoder_error >= 0.0, o->encoder_error);
+  setting.missed_contacts = or_nan(o->missed_contacts >= 0.0, o->missed_contacts);
+  setting.false_contacts = or_nan(o->false_contacts >= 0.0, o->false_contacts);
+  return setting;
 }
 
 static bool open_for_writing(const char* path, FILE** file) {
@@ -128,10 +130,12 @@ static int report(const run* r) {
 
 static int run_all(run* r) {
   const run_options* o = &r->options;
-  if (!load(r)) return exit_usage;
-  describe(r, &r->result.setting);
-  if ((o->resume && !take_over_results(o->json, o->seed, o->trials, &r->result)) ||
-      (o->record != NULL && !open_for_writing(o->record, &r->record)) || !save_so_far(o, &r->result) ||
+  if ((o->resume && !load_results(o->json, &r->result)) || !load(r)) return exit_usage;
+  const run_setting setting = setting_of(r);
+  if (!trials_belong(o->json, &r->result, &setting, o->seed, o->trials)) return exit_usage;
+  r->result.setting = setting;
+  if (o->resume) fprintf(stderr, "%s: %d of %d trials are there\n", o->json, r->result.count, o->trials);
+  if ((o->record != NULL && !open_for_writing(o->record, &r->record)) || !save_so_far(o, &r->result) ||
       !run_trials(&r->setup, o, r->record, save_so_far, &r->result))
     return exit_usage;
   return report(r);
