@@ -4,8 +4,10 @@
 import json
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
+import sys
 import time
 
 import pytest
@@ -17,6 +19,9 @@ TRIALS = 3
 
 if not TACTUS.exists():
     pytest.skip(f"{TACTUS} is not built", allow_module_level=True)
+
+sys.path.insert(0, str(ROOT / "examples" / "python"))
+import study  # noqa: E402
 
 
 def command(path, *options):
@@ -131,3 +136,24 @@ def test_resume_takes_a_file_that_keeps():
     for options in (["--resume"], ["--resume", "--json", "-"], ["--resume", "--json", "/dev/null"]):
         result = subprocess.run([TACTUS, "run", SHELF, *options], capture_output=True, text=True, timeout=20)
         assert result.returncode == 2 and "--resume: expected --json" in result.stderr
+
+
+# --- the study of the examples
+
+def test_the_table_has_a_row_for_each_setting_with_results(in_one_go, tmp_path, monkeypatch):
+    monkeypatch.setattr(study, "STUDY", tmp_path)
+    shutil.copy(in_one_go, tmp_path / "base_4d.json")
+    document = json.loads(in_one_go.read_text())
+    document["trials"] = [{**document["trials"][0], "cost_m": cost, "inserted": cost < 2} for cost in (1.0, 1.5, 6.5)]
+    (tmp_path / "shelf_3d.json").write_text(json.dumps(document))
+    study.write_table(tmp_path / "table.md")
+    shelf, base = [line for line in (tmp_path / "table.md").read_text().splitlines() if line.startswith(("| shelf_3d", "| base_4d", "| sim_5d"))]
+    assert shelf.startswith("| shelf_3d | 3 | 2 (66.7 %) | 3 (100.0 %) | 3.00 | 1.50 | 6.50 | 3.0 | ")
+    assert base.startswith(f"| base_4d | {TRIALS} | 0 (0.0 %) |")
+
+
+def test_the_study_runs_scenarios_that_are_there():
+    for setting in study.SETTINGS:
+        words = study.command(setting, 1, 5)
+        assert (ROOT / words[2]).exists() and "--resume" in words and words[words.index("--trials") + 1] == str(setting.trials)
+    assert sum(setting.trials for setting in study.SETTINGS[:3]) == 1000
