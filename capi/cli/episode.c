@@ -92,21 +92,21 @@ static tactus_status perform(episode* e, const tactus_action* action) {
   return TACTUS_OK;
 }
 
-/* Which limit is reached; NULL if none is. */
-static const char* limit_reached(const episode* e) {
+static trial_end limit_reached(const episode* e) {
   const tactus_limits* limits = &e->setup->limits;
-  if (e->result->actions >= limits->actions) return "limit of actions";
-  if (e->result->travel_m >= limits->travel) return "limit of travel";
-  if (difftime(time(NULL), e->began) >= limits->seconds) return "limit of time";
-  return NULL;
+  if (e->result->actions >= limits->actions) return trial_at_limit_of_actions;
+  if (e->result->travel_m >= limits->travel) return trial_at_limit_of_travel;
+  if (difftime(time(NULL), e->began) >= limits->seconds) return trial_at_limit_of_time;
+  return trial_goes_on;
 }
 
-static const char* ending(tactus_status status) {
-  if (status == TACTUS_GOAL_REACHED) return "goal reached";
-  if (status == TACTUS_NO_INFORMATIVE_ACTION) return "no informative action";
-  if (status == TACTUS_CANCELLED) return "cancelled";
-  fprintf(stderr, "tactus run: %s: %s\n", tactus_status_name(status), tactus_last_error());
-  return "error";
+static trial_end ending(const episode* e, tactus_status status) {
+  if (status == TACTUS_GOAL_REACHED) return trial_at_goal;
+  if (status == TACTUS_NO_INFORMATIVE_ACTION) return trial_out_of_actions;
+  if (status == TACTUS_CANCELLED) return trial_cancelled;
+  fprintf(stderr, "tactus run: seed %" PRIu64 ": %s: %s\n", e->result->seed, tactus_status_name(status),
+          tactus_last_error());
+  return trial_failed;
 }
 
 static void loop(episode* e) {
@@ -115,10 +115,10 @@ static void loop(episode* e) {
     tactus_status status = tactus_planner_query_action(e->planner, e->belief, &action);
     if (status == TACTUS_OK) status = perform(e, action);
     tactus_action_destroy(action);
-    e->result->ended = status == TACTUS_OK ? limit_reached(e) : ending(status);
-    if (e->result->ended != NULL) break;
+    e->result->ended = status == TACTUS_OK ? limit_reached(e) : ending(e, status);
+    if (e->result->ended != trial_goes_on) break;
   }
-  if (measure(e) != TACTUS_OK || measure_end(e) != TACTUS_OK) e->result->ended = ending(TACTUS_INTERNAL);
+  if (measure(e) != TACTUS_OK || measure_end(e) != TACTUS_OK) e->result->ended = ending(e, TACTUS_INTERNAL);
 }
 
 /* --- a trial */
@@ -160,7 +160,7 @@ bool run_trial(const trial_setup* setup, uint64_t seed, const double true_pose[7
     e.observation.joint_count = setup->dof;
     loop(&e);
   } else {
-    fprintf(stderr, "tactus run: %s\n", tactus_last_error());
+    fprintf(stderr, "tactus run: seed %" PRIu64 ": %s\n", seed, tactus_last_error());
   }
   record_end(e.record, result->inserted);
   tactus_planner_destroy(e.planner);

@@ -19,4 +19,17 @@ void json_numbers_field(FILE* out, const char* key, const double* values, size_t
 
 enum { json_full = 9, json_short = 5 }; /* significant digits: of results; of what is drawn */
 
+/* A member of a struct as JSON has it. A table of these serves to write the struct and to read it back. */
+typedef struct {
+  const char* key;
+  enum { member_text, member_bool, member_int, member_whole, member_double, member_doubles } type;
+  size_t offset; /* of char[count], bool, int, uint64_t, double, double[count]; the last is null if its first is NAN */
+  size_t count;
+} json_member;
+
+void json_member_value(FILE* out, const void* object, const json_member* member);
+
+/* `"key": value` for each, `between` them what is said. */
+void json_members(FILE* out, const void* object, const json_member* members, size_t count, const char* between);
+
 #endif

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "results_file.h"
+
 const char* const usage =
     "usage: tactus run SCENARIO [options]   find the target by touch, in simulation\n"
     "       tactus check SCENARIO           name everything that is wrong with a scenario\n"
@@ -26,7 +28,10 @@ const char* const usage =
     "  --encoder-error M          by which what it reports may be off (the scenario's)\n"
     "  --missed-contacts P        share of motions in which it feels no contact (the scenario's)\n"
     "  --false-contacts P         share of motions that a false contact stops (the scenario's)\n"
-    "  --json FILE                results; - for stdout\n"
+    "  --jobs J                   trials at a time (1); they share the machine, and a budget in seconds buys less:\n"
+    "                             with --budget-expansions the results are the same for every J\n"
+    "  --json FILE                results, saved whole after every trial; - for stdout, at the end\n"
+    "  --resume                   run only the trials that FILE does not have; its others must be of the same options\n"
     "  --record FILE              the first trial, for a replay page\n"
     "\n"
     "Progress goes to stderr, results to stdout. Exit status: 0 all inserted, 1 some were not, 2 usage or scenario "
@@ -100,6 +105,9 @@ static const char* take(const char* name, const char* value, run_options* option
   } else if (strcmp(name, "--trials") == 0) {
     if (!read_count(value, 1, 1000000, &count)) return "a number from 1 to 1000000";
     options->trials = (int)count;
+  } else if (strcmp(name, "--jobs") == 0) {
+    if (!read_count(value, 1, most_jobs, &count)) return "a number from 1 to 256";
+    options->jobs = (int)count;
   } else if (strcmp(name, "--seed") == 0) {
     if (!read_count(value, 0, UINT64_MAX, &options->seed)) return "a whole number";
   } else if (strcmp(name, "--budget-seconds") == 0) {
@@ -114,12 +122,19 @@ static const char* take(const char* name, const char* value, run_options* option
 }
 
 static bool is_option(const char* name) {
-  static const char* const names[] = {"--trials",         "--seed",
-                                      "--solver",         "--belief",
-                                      "--budget-seconds", "--budget-expansions",
-                                      "--json",           "--record",
-                                      "--true-pose",      "--stopping-distance",
-                                      "--encoder-error",  "--missed-contacts",
+  static const char* const names[] = {"--trials",
+                                      "--seed",
+                                      "--jobs",
+                                      "--solver",
+                                      "--belief",
+                                      "--budget-seconds",
+                                      "--budget-expansions",
+                                      "--json",
+                                      "--record",
+                                      "--true-pose",
+                                      "--stopping-distance",
+                                      "--encoder-error",
+                                      "--missed-contacts",
                                       "--false-contacts"};
   for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
     if (strcmp(name, names[i]) == 0) return true;
@@ -133,7 +148,7 @@ static bool complain(const char* about, const char* what) {
 
 bool parse_run_options(int argc, char** argv, run_options* options) {
   memset(options, 0, sizeof *options);
-  options->trials = 1;
+  options->trials = options->jobs = 1;
   options->seed = 1;
   options->stopping_distance = options->encoder_error = options->missed_contacts = options->false_contacts = -1.0;
   for (int i = 0; i < argc; ++i) {
@@ -143,6 +158,10 @@ bool parse_run_options(int argc, char** argv, run_options* options) {
       continue;
     }
     const char* name = argv[i];
+    if (strcmp(name, "--resume") == 0) {
+      options->resume = true;
+      continue;
+    }
     if (!is_option(name)) return complain(name, "unknown option, see tactus --help");
     if (++i == argc) return complain(name, "expected a value");
     const char* expected = take(name, argv[i], options);
@@ -151,5 +170,10 @@ bool parse_run_options(int argc, char** argv, run_options* options) {
       return false;
     }
   }
-  return options->scenario != NULL || complain("SCENARIO", "expected a scenario file, see tactus --help");
+  if (options->scenario == NULL) return complain("SCENARIO", "expected a scenario file, see tactus --help");
+  if (options->resume && (options->json == NULL || !is_replaceable(options->json)))
+    return complain("--resume", "expected --json and a file that keeps the trials");
+  if (options->resume && options->record != NULL)
+    return complain("--record", "expected no --resume, with which the first trial may not be run");
+  return true;
 }

@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+enum { most_jobs = 256 };
+
 /* What `tactus run` was asked for. Strings are those of the command line; NULL and 0 where an option was not given. */
 typedef struct {
   const char* scenario;
@@ -12,7 +14,9 @@ typedef struct {
   const char* belief;
   const char* json;
   const char* record;
+  bool resume;
   int trials;
+  int jobs;
   uint64_t seed;
   double budget_seconds;
   uint64_t budget_expansions;

@@ -6,14 +6,17 @@
 #include "commands.h"
 #include "episode.h"
 #include "options.h"
+#include "result_json.h"
+#include "results_file.h"
+#include "trials.h"
 
 typedef struct {
   run_options options;
   tactus_scenario* scenario;
   trial_setup setup;
   double* start;
-  trial_result* trials;
-  FILE *json, *record;
+  run_result result;
+  FILE* record;
 } run;
 
 static bool failed(const char* what) {
@@ -58,8 +61,7 @@ static bool load(run* r) {
       tactus_scenario_dof(r->scenario, &setup->dof) != TACTUS_OK)
     return failed(tactus_last_error());
   r->start = malloc(setup->dof * sizeof *r->start);
-  r->trials = calloc((size_t)r->options.trials, sizeof *r->trials);
-  if (r->start == NULL || r->trials == NULL) return failed("out of memory");
+  if (r->start == NULL) return failed("out of memory");
   if (tactus_scenario_start(r->scenario, r->start, setup->dof, &setup->dof) != TACTUS_OK)
     return failed(tactus_last_error());
   setup->scenario = r->scenario;
@@ -67,61 +69,86 @@ static bool load(run* r) {
   return choose_options(r);
 }
 
+static double or_nan(bool given, double value) { return given ? value : (double)NAN; }
+
+static run_setting setting_of(const run* r) {
+  run_setting setting;
+  const run_options* o = &r->options;
+  const tactus_planner_options* planner = &r->setup.planner;
+  const bool particles = r->setup.belief.kind == TACTUS_BELIEF_PARTICLES;
+  const char* name = "";
+  tactus_scenario_name(r->scenario, &name);
+  snprintf(setting.scenario, sizeof setting.scenario, "%s", name);
+  snprintf(setting.solver, sizeof setting.solver, "%s", tactus_solver_name(planner->solver));
+  snprintf(setting.belief, sizeof setting.belief, "%s", particles ? "particles" : "hierarchical");
+  setting.budget_seconds = or_nan(isfinite(planner->budget_seconds), planner->budget_seconds);
+  setting.budget_expansions = planner->budget_expansions;
+  for (int i = 0; i < 6; ++i) setting.true_pose[i] = or_nan(o->has_true_pose, o->true_pose[i]);
+  setting.stopping_distance = or_nan(o->stopping_distance >= 0.0, o->stopping_distance);
+  setting.encoder_error = or_nan(o->encoder_error >= 0.0, o->encoder_error);
+  setting.missed_contacts = or_nan(o->missed_contacts >= 0.0, o->missed_contacts);
+  setting.false_contacts = or_nan(o->false_contacts >= 0.0, o->false_contacts);
+  return setting;
+}
+
 static bool open_for_writing(const char* path, FILE** file) {
-  if (path == NULL) return true;
   *file = strcmp(path, "-") == 0 ? stdout : fopen(path, "w");
   if (*file == NULL) fprintf(stderr, "tactus run: %s: found a file that can't be written\n", path);
   return *file != NULL;
 }
 
-/* --- the trials */
+static bool close_file(FILE* file) {
+  if (file == NULL || (file == stdout ? fflush(file) : fclose(file)) == 0) return true;
+  return failed("could not write all of the results");
+}
 
-static bool run_one(run* r, int i) {
+/* --- the results */
+
+/* After every trial, and before the first to see that it can be done. */
+static bool save_so_far(const run_options* options, const run_result* result) {
+  return options->json == NULL || !is_replaceable(options->json) || save_results(options->json, result);
+}
+
+/* Into what can't be replaced again and again, such as stdout. */
+static bool write_once(const char* path, const run_result* result) {
+  FILE* out = NULL;
+  if (!open_for_writing(path, &out)) return false;
+  print_json(out, result);
+  return close_file(out);
+}
+
+static bool to_stdout(const char* path) { return path != NULL && strcmp(path, "-") == 0; }
+
+static int report(const run* r) {
   const run_options* o = &r->options;
-  const uint64_t seed = o->seed + (uint64_t)i;
-  double pose[7];
-  const tactus_status status = o->has_true_pose ? tactus_pose_from_rpy(o->true_pose, pose)
-                                                : tactus_scenario_sample_pose(r->scenario, seed, pose);
-  if (status != TACTUS_OK) return failed(tactus_last_error());
-  return run_trial(&r->setup, seed, pose, i == 0 ? r->record : NULL, &r->trials[i]);
+  print_table(to_stdout(o->json) || to_stdout(o->record) ? stderr : stdout, &r->result);
+  if (o->json != NULL && !is_replaceable(o->json) && !write_once(o->json, &r->result)) return exit_usage;
+  return summarise(&r->result).inserted == r->result.count ? exit_good : exit_not_inserted;
 }
 
-static run_result result_of(const run* r) {
-  run_result result = {"", tactus_solver_name(r->setup.planner.solver), "", r->trials, r->options.trials};
-  tactus_scenario_name(r->scenario, &result.scenario);
-  result.belief = r->setup.belief.kind == TACTUS_BELIEF_PARTICLES ? "particles" : "hierarchical";
-  return result;
-}
-
-static int report(run* r) {
-  const run_result result = result_of(r);
-  print_table(r->json == stdout || r->record == stdout ? stderr : stdout, &result);
-  if (r->json != NULL) print_json(r->json, &result);
-  return summarise(&result).inserted == result.count ? exit_good : exit_not_inserted;
-}
+/* --- the run */
 
 static int run_all(run* r) {
-  if (!load(r) || !open_for_writing(r->options.json, &r->json) || !open_for_writing(r->options.record, &r->record))
+  const run_options* o = &r->options;
+  if ((o->resume && !load_results(o->json, &r->result)) || !load(r)) return exit_usage;
+  const run_setting setting = setting_of(r);
+  if (!trials_belong(o->json, &r->result, &setting, o->seed, o->trials)) return exit_usage;
+  r->result.setting = setting;
+  if (o->resume) fprintf(stderr, "%s: %d of %d trials are there\n", o->json, r->result.count, o->trials);
+  if ((o->record != NULL && !open_for_writing(o->record, &r->record)) || !save_so_far(o, &r->result) ||
+      !run_trials(&r->setup, o, r->record, save_so_far, &r->result))
     return exit_usage;
-  for (int i = 0; i < r->options.trials; ++i)
-    if (!run_one(r, i)) return exit_usage;
   return report(r);
 }
-
-static bool close_file(FILE* file) { return file == NULL || (file == stdout ? fflush(file) : fclose(file)) == 0; }
 
 int run_command(int argc, char** argv) {
   run r;
   memset(&r, 0, sizeof r);
   if (!parse_run_options(argc, argv, &r.options)) return exit_usage;
   int result = run_all(&r);
-  const bool written = close_file(r.json), recorded = close_file(r.record);
-  if (!written || !recorded) {
-    failed("could not write all of the results");
-    result = exit_usage;
-  }
+  if (!close_file(r.record)) result = exit_usage;
   free(r.start);
-  free(r.trials);
+  free(r.result.trials);
   tactus_scenario_destroy(r.scenario);
   return result;
 }

@@ -7,7 +7,7 @@
 static const double degrees = 57.29577951308232;
 
 void print_table(FILE* out, const run_result* run) {
-  fprintf(out, "%s, %s, %s\n\n", run->scenario, run->solver, run->belief);
+  fprintf(out, "%s, %s, %s\n\n", run->setting.scenario, run->setting.solver, run->setting.belief);
   fprintf(out, "%8s  %-8s  %-5s  %7s  %8s  %8s  %7s  %8s  %5s  %10s  %8s  %8s  %s\n", "seed", "inserted", "truth",
           "cost m", "travel m", "turn rad", "actions", "contacts", "plans", "planning s", "error mm", "error deg",
           "ended");
@@ -16,7 +16,7 @@ void print_table(FILE* out, const run_result* run) {
     fprintf(out, "%8" PRIu64 "  %-8s  %-5s  %7.3f  %8.3f  %8.3f  %7d  %8d  %5" PRIu64 "  %10.2f  %8.2f  %9.2f  %s\n",
             t->seed, t->inserted ? "yes" : "no", t->truth_kept ? "kept" : "lost", t->cost_m, t->travel_m,
             t->rotation_rad, t->actions, t->contacts, t->planner_calls, t->planning_s, 1000.0 * t->position_error_m,
-            degrees * t->angle_error_rad, t->ended);
+            degrees * t->angle_error_rad, trial_end_name(t->ended));
   }
   const run_summary mean = summarise(run);
   fprintf(out, "\ninserted %d of %d, true pose kept in %d of %d\n", mean.inserted, run->count, mean.truth_kept,

@@ -27,6 +27,9 @@ expect 2 'unknown option' run x.yaml --dance 3
 expect 2 'a value' run x.yaml --seed
 expect 2 'a whole number' run x.yaml --seed -3
 expect 2 'a number from 1' run x.yaml --trials 0
+expect 2 'from 1 to 256' run x.yaml --jobs 0
+expect 2 'expected --json' run x.yaml --resume
+expect 2 'expected no --resume' run x.yaml --resume --json x.json --record y.json
 expect 2 'greater than 0' run x.yaml --budget-seconds nan
 expect 2 'six numbers' run x.yaml --true-pose 1,2,3
 expect 2 'hierarchical or particles' run x.yaml --belief firm

@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs many simulated episodes of several settings, two at a time, and writes a table of them to build/study/table.md.
+
+Stop it at any time: started again with the same arguments it goes on where it was. examples/study.sh builds what it needs first."""
+
+import argparse
+import json
+import pathlib
+import re
+import signal
+import statistics
+import subprocess
+import sys
+import time
+from typing import NamedTuple
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+STUDY = ROOT / "build" / "study"
+JOBS = 2
+
+
+class Setting(NamedTuple):
+    name: str  # of its files
+    scenario: str
+    options: list
+    trials: int
+
+
+SETTINGS = [
+    Setting("shelf_3d", "shelf_3d", ["--belief", "particles"], 600),
+    Setting("base_4d", "base_4d", ["--belief", "particles"], 200),
+    Setting("sim_5d", "sim_5d", ["--belief", "particles"], 200),
+    Setting("shelf_3d_noise", "shelf_3d", ["--belief", "particles", "--stopping-distance", "0.002", "--missed-contacts", "0.02",
+                                           "--false-contacts", "0.02"], 200),
+]
+
+
+# --- the runs
+
+def command(setting, seed, expansions):
+    return ["build/release/bin/tactus", "run", f"examples/scenarios/{setting.scenario}.yaml", *setting.options,
+            "--trials", str(setting.trials), "--seed", str(seed), "--budget-expansions", str(expansions), "--jobs", str(JOBS),
+            "--resume", "--json", f"build/study/{setting.name}.json"]
+
+
+def span(seconds):
+    return f"{seconds / 3600:.1f} h" if seconds > 5400 else f"{seconds / 60:.0f} min" if seconds > 90 else f"{seconds:.0f} s"
+
+
+def report(lines, log):
+    """Keeps every line in the log; shows the ends of trials, with the time that the rest will take."""
+    began, ended = time.monotonic(), 0
+    for line in lines:
+        log.write(line)
+        done = re.search(r"ended: .*; (\d+) of (\d+) trials", line)
+        if done:
+            ended += 1
+            left = (int(done[2]) - int(done[1])) * (time.monotonic() - began) / ended
+            print(f"    {line.strip()}, {span(left)} to go", flush=True)
+        elif not line.startswith("seed "):
+            print(f"    {line.strip()}", flush=True)
+
+
+def run(setting, seed, expansions):
+    words = command(setting, seed, expansions)
+    print(f"\n==> {setting.name}: {setting.trials} trials\n    {' '.join(words)}", flush=True)
+    with open(STUDY / f"{setting.name}.log", "a") as log:
+        with subprocess.Popen(words, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+            try:
+                report(process.stderr, log)
+            except BaseException:
+                process.kill()
+                raise
+    if process.returncode not in (0, 1):  # 1: some were not inserted
+        sys.exit(f"error: {setting.name}: tactus run ended with status {process.returncode}; what it said is above and in {log.name}")
+
+
+# --- the table
+
+HEAD = """| setting | trials | inserted | true pose kept | cost mean | median | max | actions | planning calls | planning s |
+|---|---|---|---|---|---|---|---|---|---|
+"""
+
+
+def row(name, trials):
+    def mean(key):
+        return statistics.mean(trial[key] for trial in trials)
+
+    def share(key):
+        count = sum(trial[key] for trial in trials)
+        return f"{count} ({100 * count / len(trials):.1f} %)"
+
+    costs = [trial["cost_m"] for trial in trials]
+    return (f"| {name} | {len(trials)} | {share('inserted')} | {share('truth_kept')} | {mean('cost_m'):.2f} | {statistics.median(costs):.2f} | "
+            f"{max(costs):.2f} | {mean('actions'):.1f} | {mean('planner_calls'):.1f} | {mean('planning_s'):.1f} |\n")
+
+
+def legend(setting, run):
+    """What a row is of, as far as its name does not say it."""
+    options = [f"{key} {value}" for key, value in run["summary"]["options"].items() if value is not None]
+    return f"- {setting.name}: {run['scenario']}, {run['solver']}, {run['belief']}, {', '.join(options)}\n"
+
+
+def write_table(path):
+    """Of the results that are there, whole or not."""
+    rows, notes = "", ""
+    for setting in SETTINGS:
+        results = STUDY / f"{setting.name}.json"
+        run = json.loads(results.read_text()) if results.exists() else {"trials": []}
+        if run["trials"]:
+            rows += row(setting.name, run["trials"])
+            notes += legend(setting, run)
+    path.write_text(f"{HEAD}{rows}\nCosts in m + 0.05 m/rad + 0.005 m an action, over all trials; actions, calls and seconds are means of a trial, "
+                    f"the seconds with {JOBS} trials at a time.\n\n{notes}")
+    print(f"\n{path}:\n\n{path.read_text()}", flush=True)
+
+
+# --- the study
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--trials", type=int, metavar="N", help="of each setting (" + ", ".join(f"{s.name} {s.trials}" for s in SETTINGS) + ")")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help="of the first trial (1)")
+    parser.add_argument("--expansions", type=int, default=20, metavar="E", help="beliefs expanded in a planning call (20)")
+    parser.add_argument("--only", choices=[setting.name for setting in SETTINGS], help="this setting alone")
+    return parser.parse_args()
+
+
+def main():
+    asked = arguments()
+    settings = [setting._replace(trials=asked.trials or setting.trials) for setting in SETTINGS if asked.only in (None, setting.name)]
+    STUDY.mkdir(parents=True, exist_ok=True)
+    print(f"{sum(setting.trials for setting in settings)} trials, {JOBS} at a time. A trial takes up to some minutes; how long the rest of a setting\n"
+          "will take is told after each. Stop at any time (Ctrl-C): the same command goes on from there.", flush=True)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        for setting in settings:
+            run(setting, asked.seed, asked.expansions)
+    except KeyboardInterrupt:
+        sys.exit("\nstopped; the same command goes on from here")
+    finally:
+        write_table(STUDY / "table.md")
+
+
+if __name__ == "__main__":
+    main()
