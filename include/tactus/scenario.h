@@ -93,7 +93,7 @@ TACTUS_API tactus_status tactus_scenario_limits(const tactus_scenario* scenario,
 
 /* --- poses */
 
-/** Draws a pose of the target from the prior, uniformly; the same for the same seed, on every machine. */
+/** Draws a pose of the target by the prior; the same for the same seed, on every machine. */
 TACTUS_API tactus_status tactus_scenario_sample_pose(const tactus_scenario* scenario, uint64_t seed,
                                                      double pose[7]) TACTUS_NOEXCEPT;
 

@@ -36,6 +36,11 @@ class Fingerprint {
     for (const geometry::Triangle& t : mesh.triangles)
       for (const std::int32_t index : t) add(static_cast<std::uint64_t>(index));
   }
+  void add(const scene::Guess& guess) {
+    add(guess.share);
+    for (const double x : guess.normal.mean()) add(x);
+    for (const double x : guess.normal.covariance().reshaped()) add(x);
+  }
   std::uint64_t sum() const { return sum_; }
 
  private:
@@ -56,6 +61,7 @@ std::uint64_t fingerprint(const Model& model) {
     print.add(scene.prior.centre[d]);
     print.add(scene.prior.width[d]);
   }
+  for (const scene::Guess& guess : scene.prior.guesses) print.add(guess);
   for (const robot::Joint& joint : scene.robot->joints) print.add(joint.name);
   print.add(model.task->options().contact_margin);
   print.add(model.task->options().stop_tolerance);

@@ -43,7 +43,7 @@ struct Summary {
   std::size_t possibly_occupied = 0;  ///< voxels; 0 in the pose phase
   double volume = 0.0;                ///< m^3 of PO; 0 in the pose phase
   std::size_t cells = 0;              ///< 0 in the voxel phase
-  double bits = 0.0;                  ///< log2 of how many task tolerances the belief spans
+  double bits = 0.0;                  ///< log2 of how many task tolerances the belief spans: its entropy
   PoseVector mean{},
       extent{};  ///< of the target's pose: middle (angles: circular mean) and full extents, x y z roll pitch yaw
   std::array<double, 36> covariance{};  ///< of the same six, row-major

@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace tactus::belief {
-CellBelief::CellBelief(const Task& task, const CellOptions& options) : options_(options) {
+CellBelief::CellBelief(const Task& task, const CellOptions& options) : options_(options), prior_(task.scene().prior) {
   for (const Vector3& v : task.scene().target.mesh.vertices) reach_ = std::max(reach_, v.norm());
-  grid_.emplace(task.scene().prior, options.position, options.angle, options.most_at_first, reach_);
+  grid_.emplace(prior_, options.position, options.angle, options.most_at_first, reach_);
   initial_half_ = grid_->half_width();
   list_when_few();
+  weigh();
 }
 
 /// A list takes over once its cells may be split.
@@ -22,6 +24,7 @@ void CellBelief::list_when_few() {
 CellBelief CellBelief::restored(const Task& task, const CellOptions& options, Bitset members) {
   CellBelief belief(task, options);
   belief.grid_->assign(std::move(members));
+  belief.weigh();
   return belief;
 }
 
@@ -29,6 +32,7 @@ CellBelief CellBelief::restored(const Task& task, const CellOptions& options, st
   CellBelief belief(task, options);
   belief.grid_.reset();
   belief.cells_ = std::move(cells);
+  belief.weigh();
   return belief;
 }
 
@@ -61,6 +65,21 @@ double CellBelief::volume() const {
   return total;
 }
 
+double CellBelief::weight(const Cell& cell) const { return volume(cell) * prior_.density(cell.centre); }
+
+double CellBelief::weight() const { return weighed_.empty() ? volume() : weighed_.back(); }
+
+void CellBelief::weigh() {
+  if (prior_.guesses.empty()) return;
+  weighed_.assign(grid_ ? grid_->members().words().size() : cells_.size(), 0.0);
+  for (std::size_t i = 0; i < cells_.size(); ++i) weighed_[i] = weight(cells_[i]);
+  if (grid_)
+    grid_->members().for_each([&](std::size_t member) {
+      weighed_[member / 64] += weight({grid_->centre(member), {}});
+    });
+  std::partial_sum(weighed_.begin(), weighed_.end(), weighed_.begin());
+}
+
 bool CellBelief::update(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes) {
   if (grid_) {
     CellGrid sifted = *grid_;
@@ -68,6 +87,7 @@ bool CellBelief::update(const Task& task, const std::vector<const Trace*>& trace
     if (sifted.size() == 0) return false;
     grid_ = std::move(sifted);
     list_when_few();
+    weigh();
     return true;
   }
   std::vector<Cell> kept;
@@ -81,6 +101,7 @@ bool CellBelief::update(const Task& task, const std::vector<const Trace*>& trace
   }
   if (kept.empty()) return false;
   cells_ = std::move(kept);
+  weigh();
   return true;
 }
 
@@ -117,7 +138,25 @@ void CellBelief::split(const Cell& cell, std::vector<Cell>& halves) const {
   }
 }
 
+/// Finds the cell, or the word of the grid's members and then the cell.
+Cell CellBelief::draw_weighed(support::Rng& rng) const {
+  const double at = std::min(rng.uniform() * weight(), std::nextafter(weight(), 0.0));
+  const auto found = std::upper_bound(weighed_.begin(), weighed_.end(), at);
+  const auto i = static_cast<std::size_t>(found - weighed_.begin());
+  if (!grid_) return cells_[i];
+  const Bitset& members = grid_->members();
+  double left = at - (i > 0 ? weighed_[i - 1] : 0.0);
+  Cell drawn;
+  for (std::size_t member = 64 * i; left >= 0.0 && member < std::min(members.size(), 64 * (i + 1)); ++member) {
+    if (!members.test(member)) continue;
+    drawn.centre = grid_->centre(member);
+    left -= weight(drawn);
+  }
+  return drawn;
+}
+
 Cell CellBelief::draw_cell(support::Rng& rng) const {
+  if (!weighed_.empty()) return draw_weighed(rng);
   if (grid_) return {grid_->centre(grid_->members().member(rng.below(grid_->size()))), {}};
   double left = rng.uniform() * volume();
   for (const Cell& cell : cells_)
@@ -149,6 +188,7 @@ bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
       if (may_reproduce(task, history, cell)) kept.push_back(cell);
     if (kept.empty()) return false;
     cells_ = std::move(kept);
+    weigh();
   }
   return true;
 }

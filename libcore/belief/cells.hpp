@@ -28,7 +28,8 @@ struct CellOptions {
 };
 
 /// Phase 2: a set of cells that covers every pose that may have given the observations. A cell goes only when no pose
-/// in it can have. As long as there are many they are those of a grid; then a list, in which they are split. A value.
+/// in it can have. As long as there are many they are those of a grid; then a list, in which they are split. They weigh
+/// what the prior says: that counts where cells are drawn or described, and removes none. A value.
 class CellBelief {
  public:
   using Excludes = CellGrid::Excludes;
@@ -47,6 +48,8 @@ class CellBelief {
   double radius(const Cell& cell) const;  ///< m that a point of the target may be off the cell's centre
   double volume(const Cell& cell) const;  ///< product of the free dimensions' widths
   double volume() const;                  ///< of all cells
+  double weight(const Cell& cell) const;  ///< volume times the prior's density at the centre
+  double weight() const;                  ///< of all cells
 
   /// Removes the cells that can't have given every one of some traces, or that `excludes` says so of. Returns whether
   /// any are left; if not, nothing is changed.
@@ -57,7 +60,7 @@ class CellBelief {
   bool refine(const Task& task, const std::vector<Trace>& history,
               const std::function<bool(const CellBelief&)>& enough = {});
 
-  Cell draw_cell(support::Rng& rng) const;  ///< by volume
+  Cell draw_cell(support::Rng& rng) const;  ///< by weight
   PoseVector draw_in(const Cell& cell, support::Rng& rng) const;
 
   const std::optional<CellGrid>& grid() const { return grid_; }  ///< none once the cells are a list
@@ -71,12 +74,17 @@ class CellBelief {
   void split(const Cell& cell, std::vector<Cell>& halves) const;
   bool may_reproduce(const Task& task, const std::vector<Trace>& history, Cell& cell) const;
   void list_when_few();
+  void weigh();
+  Cell draw_weighed(support::Rng& rng) const;
 
   CellOptions options_;
+  scene::Prior prior_;
   double reach_ = 0.0;  ///< m from the target's origin to its farthest vertex
   PoseVector initial_half_{};
   std::optional<CellGrid> grid_;
   std::vector<Cell> cells_;  ///< without a grid
+  /// Where the prior is not uniform: weight of the cells up to each one, or up to each word of the grid's members.
+  std::vector<double> weighed_;
 };
 
 template <typename Visit>

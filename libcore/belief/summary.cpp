@@ -20,26 +20,28 @@ double tolerance_volume(const Task& task) {
   return product;
 }
 
-/// Weighted circular mean of the angles, arithmetic mean of the positions.
+/// Circular mean of the angles, arithmetic mean of the positions.
 Vector6 mean_of(const CellBelief& cells, double total) {
   Vector6 sum = Vector6::Zero(), sine = Vector6::Zero(), cosine = Vector6::Zero();
   cells.for_each([&](const Cell& cell) {
-    const double weight = cells.volume(cell) / total;
+    const double share = cells.weight(cell) / total;
     for (int d = 0; d < 6; ++d) {
-      sum[d] += weight * cell.centre[d];
-      sine[d] += weight * std::sin(cell.centre[d]);
-      cosine[d] += weight * std::cos(cell.centre[d]);
+      sum[d] += share * cell.centre[d];
+      sine[d] += share * std::sin(cell.centre[d]);
+      cosine[d] += share * std::cos(cell.centre[d]);
     }
   });
   for (int d = 3; d < 6; ++d) sum[d] = scene::nearest_angle(std::atan2(sine[d], cosine[d]), sum[d]);
   return sum;
 }
 
+/// `bits` is the entropy in units of the task tolerance: within a cell the target is uniform.
 void describe_cells(const CellBelief& cells, const Task& task, Summary& summary) {
-  const double total = cells.volume();
+  const double total = cells.weight();
   const Vector6 mean = mean_of(cells, total);
   Vector6 low = Vector6::Constant(1e300), high = -low;
   Matrix6 covariance = Matrix6::Zero();
+  double bits = std::log2(total / tolerance_volume(task));
   cells.for_each([&](const Cell& cell) {
     Vector6 off, half;
     for (int d = 0; d < 6; ++d) {
@@ -48,10 +50,12 @@ void describe_cells(const CellBelief& cells, const Task& task, Summary& summary)
     }
     low = low.cwiseMin(off - half);
     high = high.cwiseMax(off + half);
-    covariance += cells.volume(cell) / total * (off * off.transpose() + Matrix6(half.cwiseAbs2().asDiagonal()) / 3.0);
+    const double weight = cells.weight(cell), share = weight / total;
+    covariance += share * (off * off.transpose() + Matrix6(half.cwiseAbs2().asDiagonal()) / 3.0);
+    bits -= share * std::log2(weight / cells.volume(cell));
   });
   summary.cells = cells.size();
-  summary.bits = std::log2(std::max(1.0, total / tolerance_volume(task)));
+  summary.bits = std::max(0.0, bits);
   for (int d = 0; d < 6; ++d) summary.mean[d] = mean[d], summary.extent[d] = high[d] - low[d];
   std::copy(covariance.data(), covariance.data() + 36, summary.covariance.begin());
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenario/description.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <numbers>
 #include <set>
@@ -18,6 +19,8 @@ using support::Status;
 constexpr Need required = Need::required;
 constexpr Range at_most_a_turn{0.0, 2.0 * std::numbers::pi};
 constexpr Range at_most_half{0.0, 0.5};
+constexpr Range floors{0.001, 1.0};
+constexpr std::array dimensions{"x", "y", "z", "roll", "pitch", "yaw"};
 constexpr std::uintmax_t largest_file = 1u << 20;
 
 void read_mesh(Reader& in, MeshSource& mesh) {
@@ -81,16 +84,79 @@ void read_target(Reader& in, TargetDescription& target) {
   target.approach_axis /= length;
 }
 
+/// Dimensions of no width do not count: nothing need be said of them.
+void read_deviation(Reader& in, const geometry::PoseVector& width, scene::Matrix6& covariance) {
+  for (int d = 0; d < 6; ++d) {
+    const bool counts = width[d] > 0.0;
+    double deviation = 0.0;
+    in.number(dimensions[d], deviation, counts ? positive : not_negative, counts ? Need::required : Need::optional);
+    covariance(d, d) = deviation * deviation;
+  }
+}
+
+bool is_symmetric(const scene::Matrix6& matrix) {
+  const scene::Matrix6 size = matrix.cwiseAbs() + matrix.cwiseAbs().transpose();
+  return ((matrix - matrix.transpose()).array().abs() <= 1e-9 * size.array()).all();
+}
+
+void read_covariance(Reader& in, const geometry::PoseVector& width, scene::Matrix6& covariance) {
+  std::vector<double> numbers(covariance.data(), covariance.data() + covariance.size());
+  in.numbers("covariance", numbers, any_number);
+  if (numbers.size() != 36)
+    return in.note("covariance", "a list of " + std::to_string(numbers.size()), "a list of 36 numbers, row by row");
+  covariance = Eigen::Map<const scene::Matrix6>(numbers.data()).transpose();
+  if (!is_symmetric(covariance)) return in.note("covariance", "a matrix that isn't symmetric", "a symmetric one");
+  if (!scene::Normal::is_covariance(covariance, width))
+    in.note("covariance", "a matrix that isn't positive definite in the dimensions of some width", "one that is");
+}
+
+/// Dimensions of no width aside.
+void check_inside(Reader& in, const std::string& key, const PriorDescription& prior, geometry::PoseVector mean) {
+  for (int d = 0; d < 6; ++d)
+    if (prior.width[d] <= 0.0) mean[d] = prior.centre[d];
+  if (!scene::Prior{prior.centre, prior.width}.contains(mean))
+    in.note(key, "a pose outside the prior's widths", "one within them");
+}
+
+void read_normal(Reader& in, PriorDescription& prior) {
+  GuessDescription& guess = prior.guesses.emplace_back();
+  in.pose("mean", guess.mean, required);
+  if (in.has("mean")) check_inside(in, "mean", prior, guess.mean);
+  read_covariance(in, prior.width, guess.covariance);
+  in.section("deviation", [&](Reader& deviation) { read_deviation(deviation, prior.width, guess.covariance); });
+  const bool both = in.has("covariance") && in.has("deviation");
+  if (in.has("covariance") == in.has("deviation"))
+    in.note("", both ? "both covariance and deviation" : "neither covariance nor deviation", "one of them");
+}
+
+void read_poses(Reader& in, PriorDescription& prior) {
+  in.sections("poses", [&](Reader& pose) {
+    GuessDescription& guess = prior.guesses.emplace_back();
+    pose.pose(guess.mean);
+    pose.number("weight", guess.weight, positive);
+    check_inside(pose, "", prior, guess.mean);
+  });
+  Resolution spread{0.02, 0.1};
+  in.section("spread", [&](Reader& section) { read_resolution(section, spread); });
+  for (GuessDescription& guess : prior.guesses)
+    for (int d = 0; d < 6; ++d) guess.covariance(d, d) = std::pow(d < 3 ? spread.position : spread.angle, 2);
+}
+
 void read_prior(Reader& in, PriorDescription& prior) {
   in.pose("centre", prior.centre, required);
   in.section("width", [&](Reader& width) {
-    width.number("x", prior.width[0], not_negative);
-    width.number("y", prior.width[1], not_negative);
-    width.number("z", prior.width[2], not_negative);
-    width.number("roll", prior.width[3], at_most_a_turn);
-    width.number("pitch", prior.width[4], at_most_a_turn);
-    width.number("yaw", prior.width[5], at_most_a_turn);
+    for (int d = 0; d < 6; ++d) width.number(dimensions[d], prior.width[d], d < 3 ? not_negative : at_most_a_turn);
   });
+  read_poses(in, prior);
+  in.section("normal", [&](Reader& normal) { read_normal(normal, prior); });
+  in.number("floor", prior.floor, floors);
+
+  const bool has_normal = in.has("normal"), has_poses = in.has("poses");
+  if (has_normal && has_poses) in.note("", "both normal and poses", "one of them");
+  if (has_poses && prior.guesses.empty()) in.note("poses", "none", "at least one");
+  if (in.has("spread") && !has_poses) in.note("spread", "a spread without poses", "it beside poses only");
+  if (in.has("floor") && !has_normal && !has_poses)
+    in.note("floor", "a floor without normal or poses", "it beside one of them only");
 }
 
 void read_belief(Reader& in, BeliefDescription& belief) {

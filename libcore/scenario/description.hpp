@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/pose.hpp"
+#include "scene/prior.hpp"
 
 namespace tactus::scenario {
 
@@ -59,10 +59,20 @@ struct TargetDescription {
   Resolution tolerance{0.003, 0.15};
 };
 
-/// Where the target may be: uniform in a box of x, y, z, roll, pitch, yaw in the robot's base frame.
+/// A pose of the target, as roughly known.
+struct GuessDescription {
+  geometry::PoseVector mean{};
+  scene::Matrix6 covariance = scene::Matrix6::Identity();  ///< positive definite where the prior's widths are not 0
+  double weight = 1.0;                                     ///< beside the others'
+};
+
+/// Where the target may be: in a box of x, y, z, roll, pitch, yaw in the robot's base frame. Uniformly, but for the
+/// guesses.
 struct PriorDescription {
   geometry::PoseVector centre{};
-  geometry::PoseVector width{};  ///< full widths; 0: known
+  geometry::PoseVector width{};           ///< full widths; 0: known
+  std::vector<GuessDescription> guesses;  ///< of `normal` or `poses`
+  double floor = 0.01;                    ///< share of the probability that is not the guesses'
 };
 
 struct BeliefDescription {

@@ -38,13 +38,6 @@ std::vector<Place> elements_of(const Place& list) {
   return elements;
 }
 
-void read_pose(Reader& in, geometry::PoseVector& out) {
-  Vector3 xyz(out[0], out[1], out[2]), rpy(out[3], out[4], out[5]);
-  in.vector("xyz", xyz, any_number);
-  in.vector("rpy", rpy, any_number);
-  out = {xyz.x(), xyz.y(), xyz.z(), rpy.x(), rpy.y(), rpy.z()};
-}
-
 }  // namespace
 
 bool Range::contains(double x) const { return std::isfinite(x) && (low_excluded ? x > low : x >= low) && x <= high; }
@@ -151,9 +144,16 @@ void Reader::folders(const std::string& key, std::map<std::string, fs::path>& ou
   });
 }
 
+void Reader::pose(geometry::PoseVector& out) {
+  Vector3 xyz(out[0], out[1], out[2]), rpy(out[3], out[4], out[5]);
+  vector("xyz", xyz, any_number);
+  vector("rpy", rpy, any_number);
+  out = {xyz.x(), xyz.y(), xyz.z(), rpy.x(), rpy.y(), rpy.z()};
+}
+
 void Reader::pose(const std::string& key, geometry::PoseVector& out, Need need) {
   section(
-      key, [&](Reader& in) { read_pose(in, out); }, need);
+      key, [&](Reader& in) { in.pose(out); }, need);
 }
 
 void Reader::pose(const std::string& key, geometry::Pose& out, Need need) {
@@ -171,7 +171,7 @@ void Reader::poses(const std::string& key, std::vector<geometry::Pose>& out, Nee
   out.clear();
   for (const Place& element : one ? std::vector{*place} : elements_of(*place)) {
     geometry::PoseVector pose{};
-    read_map(element, [&](Reader& in) { read_pose(in, pose); });
+    read_map(element, [&](Reader& in) { in.pose(pose); });
     out.push_back(geometry::pose_from(pose));
   }
 }

@@ -82,6 +82,7 @@ class Reader {
   void scale(const std::string& key, geometry::Vector3& out);  ///< one number or three, none of them 0
   void file(const std::string& key, std::filesystem::path& out, Need need = Need::optional);
   void folders(const std::string& key, std::map<std::string, std::filesystem::path>& out);
+  void pose(geometry::PoseVector& out);  ///< this map is one: its keys xyz and rpy
   void pose(const std::string& key, geometry::PoseVector& out, Need need = Need::optional);
   void pose(const std::string& key, geometry::Pose& out, Need need = Need::optional);
   /// One pose or a list of them.

@@ -50,6 +50,16 @@ void place_tool(const Description& description, scene::Scene& scene, std::vector
   scene.start = Eigen::Map<const robot::JointVector>(robot.start.data(), static_cast<Eigen::Index>(robot.start.size()));
 }
 
+scene::Prior make_prior(const PriorDescription& description) {
+  scene::Prior prior{description.centre, description.width};
+  double weights = 0.0;
+  for (const GuessDescription& guess : description.guesses) weights += guess.weight;
+  for (const GuessDescription& guess : description.guesses)
+    prior.guesses.push_back(
+        {scene::Normal(guess.mean, guess.covariance, prior.width), (1.0 - description.floor) * guess.weight / weights});
+  return prior;
+}
+
 scene::Scene make_scene(const Description& d, std::vector<std::string>& problems) {
   scene::Scene scene;
   scene.robot = collected(problems, [&] { return load_robot(d.robot); });
@@ -64,7 +74,7 @@ scene::Scene make_scene(const Description& d, std::vector<std::string>& problems
   scene.target.approach_depth = d.target.approach_depth;
   scene.target.position_tolerance = d.target.tolerance.position;
   scene.target.angle_tolerance = d.target.tolerance.angle;
-  scene.prior = {d.prior.centre, d.prior.width};
+  scene.prior = make_prior(d.prior);
   return scene;
 }
 

@@ -27,12 +27,61 @@ std::array<PoseVector, 3> descriptions(const Pose& pose, const PoseVector& centr
   return {v, over, shared};
 }
 
+/// Of the free dimensions.
+double volume(const Prior& prior) {
+  double product = 1.0;
+  for (const double width : prior.width) product *= width > 0.0 ? width : 1.0;
+  return product;
+}
+
+PoseVector draw_anywhere(const Prior& prior, support::Rng& rng) {
+  PoseVector v = prior.centre;
+  for (int d = 0; d < 6; ++d) v[d] += prior.width[d] * (rng.uniform() - 0.5);
+  return v;
+}
+
+/// Uniformly, kept by the density, which is nowhere more than `most`.
+std::optional<PoseVector> draw_from_the_box(const Prior& prior, double most, support::Rng& rng) {
+  const PoseVector v = draw_anywhere(prior, rng);
+  return most * rng.uniform() < prior.density(v) ? std::optional(v) : std::nullopt;
+}
+
+/// From a guess, unless it falls outside the box, or from the uniform part.
+std::optional<PoseVector> draw_from_a_part(const Prior& prior, support::Rng& rng) {
+  double left = rng.uniform();
+  for (const Guess& guess : prior.guesses) {
+    if ((left -= guess.share) >= 0.0) continue;
+    std::optional<PoseVector> v = guess.normal.draw(rng);
+    if (!v) return v;
+    for (int d = 0; d < 6; ++d) {
+      if (prior.width[d] <= 0.0) (*v)[d] = prior.centre[d];
+      if (d >= 3) (*v)[d] = nearest_angle((*v)[d], prior.centre[d]);
+    }
+    return prior.contains(*v, 0.0) ? v : std::nullopt;
+  }
+  return draw_anywhere(prior, rng);
+}
+
 }  // namespace
 
+double Prior::density(const PoseVector& pose) const {
+  double uniform = 1.0, guessed = 0.0;
+  for (const Guess& guess : guesses) {
+    uniform -= guess.share;
+    guessed += guess.share * guess.normal.density(pose);
+  }
+  return uniform + volume(*this) * guessed;
+}
+
+/// Of the two ways to reject, the box keeps more where the density is nowhere above 1.
 Pose Prior::sample(support::Rng& rng) const {
-  PoseVector v = centre;
-  for (int d = 0; d < 6; ++d) v[d] += width[d] * (rng.uniform() - 0.5);
-  return geometry::pose_from(v);
+  if (guesses.empty()) return geometry::pose_from(draw_anywhere(*this, rng));
+  double most = 1.0;
+  for (const Guess& guess : guesses)
+    most += guess.share * (volume(*this) * guess.normal.density(guess.normal.mean()) - 1.0);
+  for (;;)
+    if (const auto v = most < 1.0 ? draw_from_the_box(*this, most, rng) : draw_from_a_part(*this, rng))
+      return geometry::pose_from(*v);
 }
 
 bool Prior::contains(const PoseVector& pose, double tolerance) const {

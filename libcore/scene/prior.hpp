@@ -1,21 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "geometry/pose.hpp"
-#include "support/rng.hpp"
+#include <vector>
+
+#include "scene/normal.hpp"
 
 namespace tactus::scene {
 
 using geometry::Pose;
 using geometry::PoseVector;
 
-/// Where the target may be: a box over x, y, z (m), roll, pitch, yaw (rad) of its frame in the robot's base frame,
-/// uniformly. A width of 0 fixes a dimension.
+/// Roughly where the target is, with this share of the probability.
+struct Guess {
+  Normal normal;
+  double share;  ///< > 0
+};
+
+/// Where the target may be: a box over x, y, z (m), roll, pitch, yaw (rad) of its frame in the robot's base frame. A
+/// width of 0 fixes a dimension. What the shares of the guesses leave of 1 is uniform; what of a guess lies outside the
+/// box is cut off.
 struct Prior {
   PoseVector centre{};
-  PoseVector width{};  ///< full widths, >= 0, angles at most 2 pi
+  PoseVector width{};            ///< full widths, >= 0, angles at most 2 pi
+  std::vector<Guess> guesses{};  ///< of this width; their shares come to less than 1
 
   Pose central_pose() const { return geometry::pose_from(centre); }
+
+  /// How likely a pose of the box is, 1 being what it is without guesses. Not made up for what is cut off: over the box
+  /// it has a mean of at most 1. O(guesses).
+  double density(const PoseVector& pose) const;
+
+  /// Draws by the density, exactly. By rejection: a draw takes 1 / (1 - shares) tries on average at worst.
   Pose sample(support::Rng& rng) const;
 
   /// Whether `pose` lies in the box, to `tolerance` (m and rad); angles modulo 2 pi.

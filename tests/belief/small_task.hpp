@@ -22,6 +22,7 @@ struct SmallTask {
   std::size_t delta = 1500;      ///< of 4,000 voxels or so
   std::size_t most_cells = 1500;
   action::Sensing sensing{};
+  std::vector<scene::Guess> guesses{};
   int seats = 1;  ///< of the four in which the pin fits, a quarter turn apart
 };
 

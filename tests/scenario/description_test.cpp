@@ -301,6 +301,106 @@ TEST_F(ScenarioDescription, ReadsMultiplesOfPi) {
     EXPECT_DOUBLE_EQ(parse(replaced(smallest, "[0, -pi/2, pi]", '[' + word + ']')).robot.start.at(0), value) << word;
 }
 
+const std::string flat = smallest + "  width: {x: 0.1, y: 0.2, yaw: 0.5}\n";
+
+TEST_F(ScenarioDescription, TakesANormalPrior) {
+  const PriorDescription sure = parse(flat +
+                                      "  normal:\n    mean: {xyz: [0.71, 0.02, 9], rpy: [0, 0, pi/2]}\n"
+                                      "    deviation: {x: 0.01, y: 0.02, z: 0, yaw: 0.1}\n  floor: 0.05\n")
+                                    .prior;
+  ASSERT_EQ(sure.guesses.size(), 1u);
+  EXPECT_EQ(sure.guesses[0].mean, (geometry::PoseVector{0.71, 0.02, 9, 0, 0, pi / 2}));
+  EXPECT_DOUBLE_EQ(sure.guesses[0].covariance(0, 0), 1e-4);
+  EXPECT_DOUBLE_EQ(sure.guesses[0].covariance(1, 1), 4e-4);
+  EXPECT_DOUBLE_EQ(sure.guesses[0].covariance(5, 5), 0.01);
+  EXPECT_EQ(sure.floor, 0.05);
+
+  const PriorDescription full = parse(flat + R"(  normal:
+    mean: {xyz: [0.7, 0, 0.4], rpy: [0, 0, 2.5pi]}
+    covariance: [1e-4, 5e-5, 0, 0, 0, 1e-3,
+                 5e-5, 1e-4, 0, 0, 0, 0,
+                 0, 0, 0, 0, 0, 0,
+                 0, 0, 0, 0, 0, 0,
+                 0, 0, 0, 0, 0, 0,
+                 1e-3, 0, 0, 0, 0, 0.04]
+)")
+                                    .prior;
+  ASSERT_EQ(full.guesses.size(), 1u);
+  EXPECT_EQ(full.guesses[0].covariance(0, 1), 5e-5);
+  EXPECT_EQ(full.guesses[0].covariance(5, 0), 1e-3);
+  EXPECT_EQ(full.guesses[0].covariance(5, 5), 0.04);
+  EXPECT_EQ(full.floor, 0.01);
+}
+
+TEST_F(ScenarioDescription, TakesWeightedPosesAsAPrior) {
+  const PriorDescription prior = parse(flat + R"(  poses:
+    - {xyz: [0.7, 0, 0.4], rpy: [0, 0, pi/2], weight: 0.7}
+    - {xyz: [0.72, 0, 0.4], rpy: [0, 0, 1.6]}
+  spread: {angle: 0.2}
+)")
+                                     .prior;
+  ASSERT_EQ(prior.guesses.size(), 2u);
+  EXPECT_EQ(prior.guesses[0].weight, 0.7);
+  EXPECT_EQ(prior.guesses[1].weight, 1.0);
+  EXPECT_EQ(prior.guesses[1].mean, (geometry::PoseVector{0.72, 0, 0.4, 0, 0, 1.6}));
+  for (const GuessDescription& guess : prior.guesses)
+    for (int d = 0; d < 6; ++d) EXPECT_DOUBLE_EQ(guess.covariance(d, d), d < 3 ? 4e-4 : 0.04);
+}
+
+TEST_F(ScenarioDescription, RefusesPriorsThatSayWhereTwiceOrNowhere) {
+  const std::string normal =
+      "  normal: {mean: {xyz: [0.7, 0, 0], rpy: [0, 0, 1.5]}, deviation: {x: 1, y: 1, yaw: 1}}\n";
+  const std::string poses = "  poses: [{xyz: [0.7, 0, 0], rpy: [0, 0, 1.5]}]\n";
+  EXPECT_EQ(mistakes_in(flat + normal), "none");
+  EXPECT_EQ(mistakes_in(flat + poses), "none");
+  expect_mistake(flat + normal + poses, "12: prior: found both normal and poses, expected one of them");
+  expect_mistake(flat + "  poses: []\n", "15: prior.poses: found none, expected at least one");
+  expect_mistake(flat + normal + "  spread: {angle: 1}\n",
+                 "16: prior.spread: found a spread without poses, expected it beside poses only");
+  expect_mistake(flat + "  floor: 0.1\n",
+                 "15: prior.floor: found a floor without normal or poses, expected it beside one of them only");
+  for (const std::string bad : {"0", "1.1"})
+    expect_mistake(flat + poses + "  floor: " + bad + "\n",
+                   "16: prior.floor: found " + bad + ", expected a number from 0.001 to 1");
+  expect_mistake(flat + "  poses:\n    - {xyz: [0.76, 0, 0.4], rpy: [0, 0, 1.5]}\n",
+                 "16: prior.poses[0]: found a pose outside the prior's widths, expected one within them");
+  expect_mistake(flat + "  poses:\n    - {xyz: [0.7, 0, 0], rpy: [0, 0, 1.5], weight: 0}\n",
+                 "16: prior.poses[0].weight: found 0, expected a number greater than 0");
+}
+
+TEST_F(ScenarioDescription, RefusesNormalPriorsThatAreNone) {
+  const std::string mean = flat + "  normal:\n    mean: {xyz: [0.7, 0, 0.4], rpy: [0, 0, pi/2]}\n";
+  const auto matrix = [](double xx, double xy, double yx, double yaw) {
+    std::ostringstream text;
+    text << "    covariance: [" << xx << ',' << xy << ",0,0,0,0, " << yx << ",1,0,0,0,0, "
+         << "0,0,0,0,0,0, 0,0,0,0,0,0, "
+         << "0,0,0,0,0,0, 0,0,0,0,0," << yaw << "]\n";
+    return text.str();
+  };
+  const std::string deviation = "    deviation: {x: 1, y: 1, yaw: 1}\n";
+  EXPECT_EQ(mistakes_in(mean + matrix(1, 0.5, 0.5, 1)), "none");
+  expect_mistake(mean + matrix(1, 0.5, 0.4, 1),
+                 "17: prior.normal.covariance: found a matrix that isn't symmetric, expected a symmetric one");
+  for (const std::string& bad : {matrix(1, 1.1, 1.1, 1), matrix(1, 1, 1, 1), matrix(-1, 0, 0, 1), matrix(1, 0, 0, 0)})
+    expect_mistake(mean + bad,
+                   "17: prior.normal.covariance: found a matrix that isn't positive definite in the "
+                   "dimensions of some width, expected one that is");
+  for (const auto& [list, count] : {std::pair{"[]", "0"}, {"[1, 2]", "2"}})
+    expect_mistake(mean + "    covariance: " + list + "\n",
+                   std::string("17: prior.normal.covariance: found a list of ") + count +
+                       ", expected a list of 36 numbers, row by row");
+  expect_mistake(mean + "    deviation: {x: 1, yaw: 1}\n",
+                 "17: prior.normal.deviation.y: found nothing, expected a number greater than 0");
+  expect_mistake(mean + "    deviation: {x: 1, y: 0, yaw: 1}\n",
+                 "17: prior.normal.deviation.y: found 0, expected a number greater than 0");
+  expect_mistake(mean, "15: prior.normal: found neither covariance nor deviation, expected one of them");
+  expect_mistake(mean + deviation + matrix(1, 0, 0, 1),
+                 "15: prior.normal: found both covariance and deviation, expected one of them");
+  expect_mistake(flat + "  normal:\n" + deviation, "15: prior.normal.mean: found nothing, expected a map");
+  expect_mistake(flat + "  normal:\n    mean: {xyz: [0.7, 0, 0.4]}\n" + deviation,
+                 "16: prior.normal.mean: found a pose outside the prior's widths, expected one within them");
+}
+
 TEST_F(ScenarioDescription, RefusesObjectsOfNoOrTwoShapes) {
   expect_mistake(smallest + "world:\n  - {name: a, box: [1, 1, 1], mesh: plug.stl}\n",
                  "15: world[0]: found both box and mesh, expected one of them");
@@ -355,7 +455,8 @@ TEST_F(ScenarioDescription, DocumentationBeginsWithAScenarioThatParses) {
 TEST_F(ScenarioDescription, DocumentationHasEveryKey) {
   const std::string page = documentation();
   std::string yaml = "unknown: 1\nworld: [{unknown: 1}]\ntarget: {unknown: 1, tolerance: {unknown: 1}}\n";
-  yaml += "prior: {unknown: 1, width: {unknown: 1}}\nbelief: {unknown: 1, cell: {unknown: 1}}\n";
+  yaml += "prior: {unknown: 1, width: {unknown: 1}, normal: {unknown: 1, deviation: {unknown: 1}}, ";
+  yaml += "poses: [{unknown: 1}], spread: {unknown: 1}}\nbelief: {unknown: 1, cell: {unknown: 1}}\n";
   for (const char* section : {"robot", "tool", "contact", "sensing", "motion", "actions", "cost", "planner", "limits"})
     yaml += std::string(section) + ": {unknown: 1}\n";
 
@@ -376,7 +477,7 @@ TEST_F(ScenarioDescription, DocumentationHasEveryKey) {
           << key;
     }
   }
-  EXPECT_GT(keys, 74);
+  EXPECT_GT(keys, 94);
 }
 
 }  // namespace
