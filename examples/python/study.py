@@ -32,7 +32,7 @@ SETTINGS = [
     Setting("shelf_3d", "shelf_3d", ["--belief", "particles"], 600, 10),
     Setting("base_4d", "base_4d", ["--belief", "particles"], 200, 45),
     Setting("sim_5d", "sim_5d", ["--belief", "particles"], 200, 120),
-    Setting("shelf_3d_noise", "shelf_3d", ["--belief", "particles", "--stopping-distance", "0.002"], 200, 120),
+    Setting("shelf_3d_noise", "shelf_3d", ["--belief", "particles", "--stopping-distance", "0.002"], 200, 300),
 ]
 
 
