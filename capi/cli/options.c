@@ -29,7 +29,7 @@ const char* const usage =
     "  --missed-contacts P        share of motions in which it feels no contact (the scenario's)\n"
     "  --false-contacts P         share of motions that a false contact stops (the scenario's)\n"
     "  --jobs J                   trials at a time (1); they share the machine, and a budget in seconds buys less:\n"
-    "                             with --budget-expansions the results are the same for every J\n"
+    "                             with --budget-expansions the results are the same for every J, limits of time apart\n"
     "  --json FILE                results, saved whole after every trial; - for stdout, at the end\n"
     "  --resume                   run only the trials that FILE does not have; its others must be of the same options\n"
     "  --record FILE              the first trial, for a replay page\n"

@@ -25,14 +25,14 @@ class Setting(NamedTuple):
     scenario: str
     options: list
     trials: int
+    seconds: int  # that a trial takes one core, about, with 20 expansions
 
 
 SETTINGS = [
-    Setting("shelf_3d", "shelf_3d", ["--belief", "particles"], 600),
-    Setting("base_4d", "base_4d", ["--belief", "particles"], 200),
-    Setting("sim_5d", "sim_5d", ["--belief", "particles"], 200),
-    Setting("shelf_3d_noise", "shelf_3d", ["--belief", "particles", "--stopping-distance", "0.002", "--missed-contacts", "0.02",
-                                           "--false-contacts", "0.02"], 200),
+    Setting("shelf_3d", "shelf_3d", ["--belief", "particles"], 600, 10),
+    Setting("base_4d", "base_4d", ["--belief", "particles"], 200, 45),
+    Setting("sim_5d", "sim_5d", ["--belief", "particles"], 200, 120),
+    Setting("shelf_3d_noise", "shelf_3d", ["--belief", "particles", "--stopping-distance", "0.002"], 200, 300),
 ]
 
 
@@ -65,7 +65,7 @@ def report(lines, log):
 def run(setting, seed, expansions):
     words = command(setting, seed, expansions)
     print(f"\n==> {setting.name}: {setting.trials} trials\n    {' '.join(words)}", flush=True)
-    with open(STUDY / f"{setting.name}.log", "a") as log:
+    with open(STUDY / f"{setting.name}.log", "a", buffering=1) as log:
         with subprocess.Popen(words, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
             try:
                 report(process.stderr, log)
@@ -131,8 +131,9 @@ def main():
     asked = arguments()
     settings = [setting._replace(trials=asked.trials or setting.trials) for setting in SETTINGS if asked.only in (None, setting.name)]
     STUDY.mkdir(parents=True, exist_ok=True)
-    print(f"{sum(setting.trials for setting in settings)} trials, {JOBS} at a time. A trial takes up to some minutes; how long the rest of a setting\n"
-          "will take is told after each. Stop at any time (Ctrl-C): the same command goes on from there.", flush=True)
+    print(f"{sum(setting.trials for setting in settings)} trials, {JOBS} at a time: about {span(sum(s.trials * s.seconds for s in settings) / JOBS)} on {JOBS} "
+          "free cores with 20 expansions,\nless what is there already. How long a setting still takes is told after each trial.\n"
+          "Stop at any time (Ctrl-C): the same command goes on from there.", flush=True)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         for setting in settings:
