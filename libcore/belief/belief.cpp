@@ -17,6 +17,7 @@ constexpr std::size_t pays_from = 12;         // one in so many is exact
 constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
 constexpr double fine_radius = 0.0004;        // m, of cells any pose of which comes near enough as it is
 constexpr std::size_t unproved_share = 8;     // of them anywhere in a cell, for what no other speaks for
+constexpr std::size_t rough_cells = 2000;     // enough to tell what an observation left out would leave possible
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
 
 }  // namespace
@@ -27,7 +28,7 @@ Model::Model(std::shared_ptr<const Task> t, const Options& o)
 Belief::Belief(std::shared_ptr<const Model> model, const JointVector& q) : model_(std::move(model)) {
   check_configuration(q, "q");
   q_ = q;
-  learn_anew();
+  learn_anew(model_->options.cells.most);
 }
 
 void Belief::check_configuration(const JointVector& q, const char* argument) const {
@@ -57,38 +58,60 @@ void Belief::step(const Action& action, const Observation& observation) {
   next.q_ = action.path[stop.last_free];
   if (!observation.contact && stop.segment > stop.last_free) next.q_ = observation.q;
   next.history_.push_back(trace_of(task(), action, observation, stop));
-  if (!next.learn({&next.history_.back()})) next.doubt(*this);
+  if (!next.learn({&next.history_.back()}, model_->options.cells)) next.doubt(*this);
   *this = std::move(next);
 }
 
-/// From the prior and the history.
-bool Belief::learn_anew() {
+/// From the prior and the history, with at most so many cells.
+bool Belief::learn_anew(std::size_t most_cells) {
+  CellOptions options = model_->options.cells;
+  options.most = std::min(options.most, most_cells);
   cells_.reset();
   voxels_.reset();
   if (model_->options.kind == Kind::hierarchical)
     voxels_.emplace(model_->voxels);
   else
-    cells_.emplace(task(), model_->options.cells);
-  return learn(believed(history_));
+    cells_.emplace(task(), options);
+  return learn(believed(history_), options);
 }
 
 /// Takes in traces, and hands over once |PO| <= delta. False if nothing is left then.
-bool Belief::learn(const std::vector<const Trace*>& traces) {
+bool Belief::learn(const std::vector<const Trace*>& traces, const CellOptions& options) {
   if (cells_)
     return cells_->update(task(), traces) &&
            cells_->refine(task(), history_, [this](const CellBelief&) { return is_goal(); });
   for (const Trace* trace : traces) voxels_->update(task(), *trace);
   const std::size_t left = voxels_->possibly_occupied().count();
-  return left > 0 && (left > model_->options.delta || hand_over());
+  return left > 0 && (left > model_->options.delta || hand_over(options));
 }
 
 /// The cells whose target may lie inside PO and that may have given every observation take over.
-bool Belief::hand_over() {
-  cells_.emplace(task(), model_->options.cells);
+bool Belief::hand_over(const CellOptions& options) {
+  cells_.emplace(task(), options);
   const auto outside = [this](const Pose& pose, double radius) { return voxels_->excludes(pose, radius); };
   const bool possible = cells_->update(task(), believed(history_), outside) && cells_->refine(task(), history_);
   voxels_.reset();
   return possible;
+}
+
+/// What would be known were one more trace doubted, or one alone (`instead` of those that are): the traces with which
+/// anything is left, and how many bits, the most first. By few cells.
+std::vector<std::size_t> Belief::candidates_for_doubt(bool instead) const {
+  std::vector<std::pair<double, std::size_t>> found;
+  for (std::size_t i = history_.size(); i-- > 0;)
+    if (Belief without = doubting(i, instead); (instead || !history_[i].doubted) && without.learn_anew(rough_cells))
+      found.emplace_back(-without.summary().bits, i);
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::size_t> candidates;
+  for (const auto& [bits, i] : found) candidates.push_back(i);
+  return candidates;
+}
+
+Belief Belief::doubting(std::size_t trace, bool instead) const {
+  Belief other = *this;
+  for (Trace& each : other.history_) each.doubted = each.doubted && !instead;
+  other.history_[trace].doubted = true;
+  return other;
 }
 
 /// The history contradicts itself. Of its traces one is doubted, instead of those doubted so far or, if no single one
@@ -96,28 +119,18 @@ bool Belief::hand_over() {
 /// `before` it stands.
 void Belief::doubt(const Belief& before) {
   health_ = Health::contradicted;
-  const auto best_without = [this](bool instead) {
-    std::optional<Belief> best;
-    double most_bits = -1.0;
-    for (std::size_t i = history_.size(); i-- > 0;) {
-      Belief without = *this;
-      for (Trace& trace : without.history_) trace.doubted = trace.doubted && !instead;
-      if (without.history_[i].doubted) continue;
-      without.history_[i].doubted = true;
-      if (!without.learn_anew()) continue;
-      if (const double bits = without.summary().bits; bits > most_bits) most_bits = bits, best = std::move(without);
-    }
-    return best;
-  };
-  std::optional<Belief> best = best_without(true);
-  if (!best && !believed(before.history_).empty()) best = best_without(false);
-  if (best) {
-    *this = std::move(*best);
-  } else {
-    history_.back().doubted = true;
-    voxels_ = before.voxels_;
-    cells_ = before.cells_;
+  const bool any_before = believed(before.history_).size() < before.history_.size();
+  for (const bool instead : {true, false}) {
+    if (!instead && !any_before) break;
+    for (const std::size_t trace : candidates_for_doubt(instead))
+      if (Belief other = doubting(trace, instead); other.learn_anew(model_->options.cells.most)) {
+        *this = std::move(other);
+        return;
+      }
   }
+  history_.back().doubted = true;
+  voxels_ = before.voxels_;
+  cells_ = before.cells_;
 }
 
 bool Belief::is_goal() const {

@@ -106,9 +106,11 @@ class Belief {
  private:
   explicit Belief(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
   void check_configuration(const JointVector& q, const char* argument) const;
-  bool learn(const std::vector<const Trace*>& traces);
-  bool learn_anew();
-  bool hand_over();
+  bool learn(const std::vector<const Trace*>& traces, const CellOptions& options);
+  bool learn_anew(std::size_t most_cells);
+  bool hand_over(const CellOptions& options);
+  Belief doubting(std::size_t trace, bool instead) const;
+  std::vector<std::size_t> candidates_for_doubt(bool instead) const;
   struct Drawn;
   Drawn draw_afresh(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const;
   PoseVector beside(const PoseVector& from, support::Rng& rng) const;

@@ -65,14 +65,14 @@ class Neighbourhoods {
 /// Sums over the cells of a mode; angles as seen from its first cell.
 struct Tally {
   PoseVector first{}, sum{}, low{}, high{};
-  double volume = 0.0;
+  double weight = 0.0;
 
-  void add(const Cell& cell, const PoseVector& half, double cell_volume) {
-    if (volume == 0.0) first = cell.centre, low.fill(1e300), high.fill(-1e300);
-    volume += cell_volume;
+  void add(const Cell& cell, const PoseVector& half, double cell_weight) {
+    if (weight == 0.0) first = cell.centre, low.fill(1e300), high.fill(-1e300);
+    weight += cell_weight;
     for (int d = 0; d < 6; ++d) {
       const double value = d < 3 ? cell.centre[d] : scene::nearest_angle(cell.centre[d], first[d]);
-      sum[d] += cell_volume * value;
+      sum[d] += cell_weight * value;
       low[d] = std::min(low[d], value - half[d]);
       high[d] = std::max(high[d], value + half[d]);
     }
@@ -80,9 +80,9 @@ struct Tally {
 
   Mode mode(double total) const {
     Mode mode;
-    mode.mass = volume / total;
+    mode.mass = weight / total;
     for (int d = 0; d < 6; ++d) {
-      mode.mean[d] = d < 3 ? sum[d] / volume : scene::nearest_angle(sum[d] / volume, 0.0);
+      mode.mean[d] = d < 3 ? sum[d] / weight : scene::nearest_angle(sum[d] / weight, 0.0);
       mode.extent[d] = high[d] - low[d];
     }
     return mode;
@@ -97,9 +97,9 @@ std::vector<Mode> modes_of(const CellBelief& cells, const scene::Prior& prior) {
   neighbourhoods.join();
   std::map<std::size_t, Tally> tallies;
   cells.for_each([&](const Cell& cell) {
-    tallies[neighbourhoods.mode_of(cell)].add(cell, cells.half_width(cell), cells.volume(cell));
+    tallies[neighbourhoods.mode_of(cell)].add(cell, cells.half_width(cell), cells.weight(cell));
   });
-  const double total = cells.volume();
+  const double total = cells.weight();
   std::vector<Mode> modes;
   for (const auto& [leader, tally] : tallies) modes.push_back(tally.mode(total));
   std::stable_sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) { return a.mass > b.mass; });
