@@ -20,6 +20,7 @@ constexpr Need required = Need::required;
 constexpr Range at_most_a_turn{0.0, 2.0 * std::numbers::pi};
 constexpr Range at_most_half{0.0, 0.5};
 constexpr Range floors{0.001, 1.0};
+constexpr Range deviations{scene::Normal::least_deviation, scene::Normal::greatest_deviation};
 constexpr std::array dimensions{"x", "y", "z", "roll", "pitch", "yaw"};
 constexpr std::uintmax_t largest_file = 1u << 20;
 
@@ -89,7 +90,7 @@ void read_deviation(Reader& in, const geometry::PoseVector& width, scene::Matrix
   for (int d = 0; d < 6; ++d) {
     const bool counts = width[d] > 0.0;
     double deviation = 0.0;
-    in.number(dimensions[d], deviation, counts ? positive : not_negative, counts ? Need::required : Need::optional);
+    in.number(dimensions[d], deviation, counts ? deviations : not_negative, counts ? Need::required : Need::optional);
     covariance(d, d) = deviation * deviation;
   }
 }
@@ -107,7 +108,8 @@ void read_covariance(Reader& in, const geometry::PoseVector& width, scene::Matri
   covariance = Eigen::Map<const scene::Matrix6>(numbers.data()).transpose();
   if (!is_symmetric(covariance)) return in.note("covariance", "a matrix that isn't symmetric", "a symmetric one");
   if (!scene::Normal::is_covariance(covariance, width))
-    in.note("covariance", "a matrix that isn't positive definite in the dimensions of some width", "one that is");
+    in.note("covariance", "a matrix that isn't positive definite in the dimensions of some width",
+            "one that is, with variances from 1e-12 to 1e6");
 }
 
 /// Dimensions of no width aside.
@@ -137,7 +139,10 @@ void read_poses(Reader& in, PriorDescription& prior) {
     check_inside(pose, "", prior, guess.mean);
   });
   Resolution spread{0.02, 0.1};
-  in.section("spread", [&](Reader& section) { read_resolution(section, spread); });
+  in.section("spread", [&](Reader& section) {
+    section.number("position", spread.position, deviations);
+    section.number("angle", spread.angle, deviations);
+  });
   for (GuessDescription& guess : prior.guesses)
     for (int d = 0; d < 6; ++d) guess.covariance(d, d) = std::pow(d < 3 ? spread.position : spread.angle, 2);
 }

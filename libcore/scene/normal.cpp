@@ -41,8 +41,9 @@ Normal::Normal(const PoseVector& mean, const Matrix6& covariance, const PoseVect
 
 bool Normal::is_covariance(const Matrix6& matrix, const PoseVector& width) {
   const Matrix6 free = with_fixed_apart(matrix, width);
-  if (!free.allFinite() || !(free.diagonal().array() > 0.0).all()) return false;
-  const Vector6 scale = free.diagonal().cwiseSqrt().cwiseInverse();
+  const Vector6 deviation = free.diagonal().cwiseSqrt(), scale = deviation.cwiseInverse();
+  if (!free.allFinite() || !(deviation.array() >= least_deviation && deviation.array() <= greatest_deviation).all())
+    return false;
   const Matrix6 correlations = scale.asDiagonal() * free * scale.asDiagonal();
   return Eigen::SelfAdjointEigenSolver<Matrix6>(correlations, Eigen::EigenvaluesOnly).eigenvalues()[0] >=
          least_eigenvalue;

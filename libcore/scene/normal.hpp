@@ -20,8 +20,10 @@ class Normal {
   /// `covariance` must be one (`is_covariance`). Nothing that it or the mean says of the other dimensions counts.
   Normal(const PoseVector& mean, const Matrix6& covariance, const PoseVector& width);
 
-  /// Whether the matrix is positive definite in the free dimensions, and its correlations are not within 1e-9 of being
-  /// singular. Only what is on and below the diagonal is looked at.
+  static constexpr double least_deviation = 1e-6, greatest_deviation = 1e3;  ///< m and rad
+
+  /// Whether the matrix is positive definite in the free dimensions, with deviations within these bounds, and its
+  /// correlations are not within 1e-9 of being singular. Only what is on and below the diagonal is looked at.
   static bool is_covariance(const Matrix6& matrix, const PoseVector& width);
 
   const PoseVector& mean() const { return mean_; }

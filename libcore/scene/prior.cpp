@@ -53,10 +53,8 @@ std::optional<PoseVector> draw_from_a_part(const Prior& prior, support::Rng& rng
     if ((left -= guess.share) >= 0.0) continue;
     std::optional<PoseVector> v = guess.normal.draw(rng);
     if (!v) return v;
-    for (int d = 0; d < 6; ++d) {
+    for (int d = 0; d < 6; ++d)
       if (prior.width[d] <= 0.0) (*v)[d] = prior.centre[d];
-      if (d >= 3) (*v)[d] = nearest_angle((*v)[d], prior.centre[d]);
-    }
     return prior.contains(*v, 0.0) ? v : std::nullopt;
   }
   return draw_anywhere(prior, rng);

@@ -159,7 +159,7 @@ TEST(Weights, RemoveNoCell) {
   }
 }
 
-TEST(Weights, TellLessThanNoGuessesWhereTheyAreRight) {
+TEST(Weights, LeaveFewerBitsToFindThanNoGuesses) {
   const ModelPtr guess = model_with(two_guesses(), 200), none = model_with({}, 200);
   const belief::Summary with = Belief(guess, guess->task->scene().start).summary();
   const belief::Summary without = Belief(none, none->task->scene().start).summary();
@@ -180,11 +180,17 @@ TEST(Weights, OfASavedBeliefAreThoseOfItsScenario) {
 TEST(Weights, ASavedBeliefIsNotTakenByAScenarioWithOthers) {
   const ModelPtr model = guessed().front();
   const std::vector<std::uint8_t> bytes = Belief(model, model->task->scene().start).save();
-  std::vector<scene::Guess> likelier = two_guesses(), elsewhere = two_guesses(), one = two_guesses();
+  std::vector<scene::Guess> likelier = two_guesses(), elsewhere = two_guesses(), surer = two_guesses(),
+                            one = two_guesses();
+  const scene::Normal& normal = one[0].normal;
+  const PoseVector& width = model->task->scene().prior.width;
+  PoseVector aside = normal.mean();
+  aside[1] += 0.001;
   likelier[0].share = 0.31;
-  elsewhere[1] = {elsewhere[0].normal, elsewhere[1].share};
+  elsewhere[0].normal = scene::Normal(aside, normal.covariance(), width);
+  surer[0].normal = scene::Normal(normal.mean(), 0.9 * normal.covariance(), width);
   one.pop_back();
-  for (const auto& guesses : {std::vector<scene::Guess>{}, likelier, elsewhere, one}) {
+  for (const auto& guesses : {std::vector<scene::Guess>{}, likelier, elsewhere, surer, one}) {
     try {
       Belief::restore(model_with(guesses, 200), bytes.data(), bytes.size());
       ADD_FAILURE();

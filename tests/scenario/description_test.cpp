@@ -362,6 +362,8 @@ TEST_F(ScenarioDescription, RefusesPriorsThatSayWhereTwiceOrNowhere) {
   for (const std::string bad : {"0", "1.1"})
     expect_mistake(flat + poses + "  floor: " + bad + "\n",
                    "16: prior.floor: found " + bad + ", expected a number from 0.001 to 1");
+  expect_mistake(flat + poses + "  spread: {angle: 1e200}\n",
+                 "16: prior.spread.angle: found 1e200, expected a number from 1e-06 to 1000");
   expect_mistake(flat + "  poses:\n    - {xyz: [0.76, 0, 0.4], rpy: [0, 0, 1.5]}\n",
                  "16: prior.poses[0]: found a pose outside the prior's widths, expected one within them");
   expect_mistake(flat + "  poses:\n    - {xyz: [0.7, 0, 0], rpy: [0, 0, 1.5], weight: 0}\n",
@@ -381,18 +383,19 @@ TEST_F(ScenarioDescription, RefusesNormalPriorsThatAreNone) {
   EXPECT_EQ(mistakes_in(mean + matrix(1, 0.5, 0.5, 1)), "none");
   expect_mistake(mean + matrix(1, 0.5, 0.4, 1),
                  "17: prior.normal.covariance: found a matrix that isn't symmetric, expected a symmetric one");
-  for (const std::string& bad : {matrix(1, 1.1, 1.1, 1), matrix(1, 1, 1, 1), matrix(-1, 0, 0, 1), matrix(1, 0, 0, 0)})
+  for (const std::string& bad : {matrix(1, 1.1, 1.1, 1), matrix(1, 1, 1, 1), matrix(-1, 0, 0, 1), matrix(1, 0, 0, 0),
+                                 matrix(1e-14, 0, 0, 1), matrix(1, 0, 0, 1e300)})
     expect_mistake(mean + bad,
                    "17: prior.normal.covariance: found a matrix that isn't positive definite in the "
-                   "dimensions of some width, expected one that is");
+                   "dimensions of some width, expected one that is, with variances from 1e-12 to 1e6");
   for (const auto& [list, count] : {std::pair{"[]", "0"}, {"[1, 2]", "2"}})
     expect_mistake(mean + "    covariance: " + list + "\n",
                    std::string("17: prior.normal.covariance: found a list of ") + count +
                        ", expected a list of 36 numbers, row by row");
   expect_mistake(mean + "    deviation: {x: 1, yaw: 1}\n",
-                 "17: prior.normal.deviation.y: found nothing, expected a number greater than 0");
+                 "17: prior.normal.deviation.y: found nothing, expected a number from 1e-06 to 1000");
   expect_mistake(mean + "    deviation: {x: 1, y: 0, yaw: 1}\n",
-                 "17: prior.normal.deviation.y: found 0, expected a number greater than 0");
+                 "17: prior.normal.deviation.y: found 0, expected a number from 1e-06 to 1000");
   expect_mistake(mean, "15: prior.normal: found neither covariance nor deviation, expected one of them");
   expect_mistake(mean + deviation + matrix(1, 0, 0, 1),
                  "15: prior.normal: found both covariance and deviation, expected one of them");
