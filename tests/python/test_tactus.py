@@ -113,7 +113,7 @@ def test_arrays_have_their_shapes(scenario, action):
 
 def test_a_belief_tells_its_history_and_its_modes(scenario, action):
     belief = tactus.Belief(scenario, kind="particles")
-    belief.step(action, tactus.Observation(action.waypoints[1], contact=True))
+    belief.step(action, tactus.Observation(True, action.waypoints[1]))
     (event,) = belief.history
     assert (event.kind, event.contact, event.doubted) == (action.kind, True, True)
     np.testing.assert_array_equal(event.q, action.waypoints[1])
