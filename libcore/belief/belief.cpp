@@ -58,7 +58,7 @@ void Belief::step(const Action& action, const Observation& observation) {
   next.q_ = action.path[stop.last_free];
   if (!observation.contact && stop.segment > stop.last_free) next.q_ = observation.q;
   next.history_.push_back(trace_of(task(), action, observation, stop));
-  if (!next.learn({&next.history_.back()}, model_->options.cells)) next.doubt(*this);
+  if (!next.learn({&next.history_.back()}, model_->options.cells)) next.doubt();
   *this = std::move(next);
 }
 
@@ -94,43 +94,52 @@ bool Belief::hand_over(const CellOptions& options) {
   return possible;
 }
 
-/// What would be known were one more trace doubted, or one alone (`instead` of those that are): the traces with which
-/// anything is left, and how many bits, the most first. By few cells.
-std::vector<std::size_t> Belief::candidates_for_doubt(bool instead) const {
-  std::vector<std::pair<double, std::size_t>> found;
-  for (std::size_t i = history_.size(); i-- > 0;)
-    if (Belief without = doubting(i, instead); (instead || !history_[i].doubted) && without.learn_anew(rough_cells))
-      found.emplace_back(-without.summary().bits, i);
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::size_t> candidates;
-  for (const auto& [bits, i] : found) candidates.push_back(i);
-  return candidates;
-}
-
-Belief Belief::doubting(std::size_t trace, bool instead) const {
+/// The belief with these traces doubted, and no others; not learnt anew yet.
+Belief Belief::doubting(const std::vector<std::size_t>& traces) const {
   Belief other = *this;
-  for (Trace& each : other.history_) each.doubted = each.doubted && !instead;
-  other.history_[trace].doubted = true;
+  for (Trace& trace : other.history_) trace.doubted = false;
+  for (const std::size_t trace : traces) other.history_[trace].doubted = true;
   return other;
 }
 
-/// The history contradicts itself. Of its traces one is doubted, instead of those doubted so far or, if no single one
-/// explains it, beside them: the one without which the most remains possible. At worst the last one, and what was known
-/// `before` it stands.
-void Belief::doubt(const Belief& before) {
+/// Of some ways to explain the history, each by traces to doubt, the one that leaves most possible; tried by few cells
+/// first.
+std::optional<Belief> Belief::best_explanation(const std::vector<std::vector<std::size_t>>& ways) const {
+  std::vector<std::pair<double, std::size_t>> found;
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    if (Belief rough = doubting(ways[i]); rough.learn_anew(rough_cells)) found.emplace_back(-rough.summary().bits, i);
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [bits, i] : found)
+    if (Belief whole = doubting(ways[i]); whole.learn_anew(model_->options.cells.most)) return whole;
+  return std::nullopt;
+}
+
+/// The history contradicts itself: as few of its traces are doubted as explain it. First one alone; one beside those
+/// doubted so far; two in a row, as after a missed contact, when the next motion sets out from inside the target; and
+/// then more and more of the last, until what is left makes sense.
+void Belief::doubt() {
   health_ = Health::contradicted;
-  const bool any_before = believed(before.history_).size() < before.history_.size();
-  for (const bool instead : {true, false}) {
-    if (!instead && !any_before) break;
-    for (const std::size_t trace : candidates_for_doubt(instead))
-      if (Belief other = doubting(trace, instead); other.learn_anew(model_->options.cells.most)) {
-        *this = std::move(other);
-        return;
-      }
+  std::vector<std::size_t> so_far;
+  for (std::size_t i = 0; i < history_.size(); ++i)
+    if (history_[i].doubted) so_far.push_back(i);
+  std::vector<std::vector<std::size_t>> ones, more, pairs;
+  for (std::size_t i = history_.size(); i-- > 0;) {
+    ones.push_back({i});
+    if (!so_far.empty() && !history_[i].doubted) (more.emplace_back(so_far)).push_back(i);
+    if (i + 1 < history_.size()) pairs.push_back({i, i + 1});
   }
-  history_.back().doubted = true;
-  voxels_ = before.voxels_;
-  cells_ = before.cells_;
+  for (const auto& ways : {ones, more, pairs})
+    if (auto best = best_explanation(ways)) {
+      *this = std::move(*best);
+      return;
+    }
+  for (std::vector<std::size_t> last = so_far; last.size() < so_far.size() + history_.size();) {
+    last.push_back(history_.size() - 1 - (last.size() - so_far.size()));
+    if (auto best = best_explanation({last})) {
+      *this = std::move(*best);
+      return;
+    }
+  }
 }
 
 bool Belief::is_goal() const {

@@ -109,12 +109,12 @@ class Belief {
   bool learn(const std::vector<const Trace*>& traces, const CellOptions& options);
   bool learn_anew(std::size_t most_cells);
   bool hand_over(const CellOptions& options);
-  Belief doubting(std::size_t trace, bool instead) const;
-  std::vector<std::size_t> candidates_for_doubt(bool instead) const;
+  Belief doubting(const std::vector<std::size_t>& traces) const;
+  std::optional<Belief> best_explanation(const std::vector<std::vector<std::size_t>>& ways) const;
   struct Drawn;
   Drawn draw_afresh(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const;
   PoseVector beside(const PoseVector& from, support::Rng& rng) const;
-  void doubt(const Belief& before);
+  void doubt();
 
   std::shared_ptr<const Model> model_;
   JointVector q_;
