@@ -12,12 +12,13 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr std::size_t least_trial = 24;       // projections after which it is asked whether they pay:
-constexpr std::size_t pays_from = 12;         // one in so many is exact
-constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
-constexpr double fine_radius = 0.0004;        // m, of cells any pose of which comes near enough as it is
-constexpr std::size_t unproved_share = 8;     // of them anywhere in a cell, for what no other speaks for
-constexpr std::size_t rough_cells = 2000;     // enough to tell what an observation left out would leave possible
+constexpr std::size_t least_trial = 24;    // projections after which it is asked whether they pay:
+constexpr std::size_t pays_from = 12;      // one in so many is exact
+constexpr std::size_t least_share = 3;     // of the poses wanted: so many are made up from others
+constexpr double fine_radius = 0.0004;     // m, of cells any pose of which comes near enough as it is
+constexpr std::size_t unproved_share = 8;  // of them anywhere in a cell, for what no other speaks for
+constexpr std::size_t few_cells = 2000;    // enough to tell what an observation left out would leave possible
+constexpr std::size_t few_at_first = 1u << 16;
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
 
 }  // namespace
@@ -28,7 +29,7 @@ Model::Model(std::shared_ptr<const Task> t, const Options& o)
 Belief::Belief(std::shared_ptr<const Model> model, const JointVector& q) : model_(std::move(model)) {
   check_configuration(q, "q");
   q_ = q;
-  learn_anew(model_->options.cells.most);
+  learn_anew(model_->options.cells);
 }
 
 void Belief::check_configuration(const JointVector& q, const char* argument) const {
@@ -62,10 +63,8 @@ void Belief::step(const Action& action, const Observation& observation) {
   *this = std::move(next);
 }
 
-/// From the prior and the history, with at most so many cells.
-bool Belief::learn_anew(std::size_t most_cells) {
-  CellOptions options = model_->options.cells;
-  options.most = std::min(options.most, most_cells);
+/// From the prior and the history.
+bool Belief::learn_anew(const CellOptions& options) {
   cells_.reset();
   voxels_.reset();
   if (model_->options.kind == Kind::hierarchical)
@@ -105,12 +104,15 @@ Belief Belief::doubting(const std::vector<std::size_t>& traces) const {
 /// Of some ways to explain the history, each by traces to doubt, the one that leaves most possible; tried by few cells
 /// first.
 std::optional<Belief> Belief::best_explanation(const std::vector<std::vector<std::size_t>>& ways) const {
+  CellOptions few = model_->options.cells;
+  few.most = std::min(few.most, few_cells);
+  few.most_at_first = std::min(few.most_at_first, few_at_first);
   std::vector<std::pair<double, std::size_t>> found;
   for (std::size_t i = 0; i < ways.size(); ++i)
-    if (Belief rough = doubting(ways[i]); rough.learn_anew(rough_cells)) found.emplace_back(-rough.summary().bits, i);
+    if (Belief rough = doubting(ways[i]); rough.learn_anew(few)) found.emplace_back(-rough.summary().bits, i);
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [bits, i] : found)
-    if (Belief whole = doubting(ways[i]); whole.learn_anew(model_->options.cells.most)) return whole;
+    if (Belief whole = doubting(ways[i]); whole.learn_anew(model_->options.cells)) return whole;
   return std::nullopt;
 }
 

@@ -107,7 +107,7 @@ class Belief {
   explicit Belief(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
   void check_configuration(const JointVector& q, const char* argument) const;
   bool learn(const std::vector<const Trace*>& traces, const CellOptions& options);
-  bool learn_anew(std::size_t most_cells);
+  bool learn_anew(const CellOptions& options);
   bool hand_over(const CellOptions& options);
   Belief doubting(const std::vector<std::size_t>& traces) const;
   std::optional<Belief> best_explanation(const std::vector<std::vector<std::size_t>>& ways) const;
