@@ -12,14 +12,21 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr std::size_t least_trial = 24;    // projections after which it is asked whether they pay:
-constexpr std::size_t pays_from = 12;      // one in so many is exact
-constexpr std::size_t least_share = 3;     // of the poses wanted: so many are made up from others
-constexpr double fine_radius = 0.0004;     // m, of cells any pose of which comes near enough as it is
-constexpr std::size_t unproved_share = 8;  // of them anywhere in a cell, for what no other speaks for
-constexpr std::size_t few_cells = 2000;    // enough to tell what an observation left out would leave possible
+constexpr std::size_t least_trial = 24;     // projections after which it is asked whether they pay:
+constexpr std::size_t pays_from = 12;       // one in so many is exact
+constexpr std::size_t least_share = 3;      // of the poses wanted: so many are made up from others
+constexpr double fine_radius = 0.0004;      // m, of cells any pose of which comes near enough as it is
+constexpr std::size_t unproved_share = 8;   // of them anywhere in a cell, for what no other speaks for
+constexpr double stops_per_waypoint = 8.0;  // that can be told apart
+constexpr std::size_t few_cells = 2000;     // enough to tell what an observation left out would leave possible
 constexpr std::size_t few_at_first = 1u << 16;
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
+
+/// How unlikely it is to be stopped just there by a contact that is none, in bits: anywhere else on the way would have
+/// been as likely. A contact that is missed has no such choice.
+double surprise(const Trace& trace) {
+  return trace.contact ? std::log2(stops_per_waypoint * static_cast<double>(trace.path.size())) : 0.0;
+}
 
 }  // namespace
 
@@ -101,36 +108,41 @@ Belief Belief::doubting(const std::vector<std::size_t>& traces) const {
   return other;
 }
 
-/// Of some ways to explain the history, each by traces to doubt, the one that leaves most possible; tried by few cells
-/// first.
+/// Of some ways to explain the history, each by traces to doubt, the likeliest: the one that leaves most possible, less
+/// its surprise. Tried by few cells first.
 std::optional<Belief> Belief::best_explanation(const std::vector<std::vector<std::size_t>>& ways) const {
   CellOptions few = model_->options.cells;
   few.most = std::min(few.most, few_cells);
   few.most_at_first = std::min(few.most_at_first, few_at_first);
   std::vector<std::pair<double, std::size_t>> found;
   for (std::size_t i = 0; i < ways.size(); ++i)
-    if (Belief rough = doubting(ways[i]); rough.learn_anew(few)) found.emplace_back(-rough.summary().bits, i);
+    if (Belief rough = doubting(ways[i]); rough.learn_anew(few)) {
+      double likely = rough.summary().bits;
+      for (const std::size_t trace : ways[i]) likely -= surprise(history_[trace]);
+      found.emplace_back(-likely, i);
+    }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [bits, i] : found)
     if (Belief whole = doubting(ways[i]); whole.learn_anew(model_->options.cells)) return whole;
   return std::nullopt;
 }
 
-/// The history contradicts itself: as few of its traces are doubted as explain it. First one alone; one beside those
-/// doubted so far; two in a row, as after a missed contact, when the next motion sets out from inside the target; and
-/// then more and more of the last, until what is left makes sense.
+/// The history contradicts itself: as few of its traces are doubted as explain it. First one alone; two in a row, as
+/// after a missed contact, when the next motion sets out from inside the target, or one beside a single one doubted so
+/// far; one beside several; and then more and more of the last, until what is left makes sense.
 void Belief::doubt() {
   health_ = Health::contradicted;
   std::vector<std::size_t> so_far;
   for (std::size_t i = 0; i < history_.size(); ++i)
     if (history_[i].doubted) so_far.push_back(i);
-  std::vector<std::vector<std::size_t>> ones, more, pairs;
+  std::vector<std::vector<std::size_t>> ones, pairs, more;
   for (std::size_t i = history_.size(); i-- > 0;) {
     ones.push_back({i});
-    if (!so_far.empty() && !history_[i].doubted) (more.emplace_back(so_far)).push_back(i);
     if (i + 1 < history_.size()) pairs.push_back({i, i + 1});
+    if (so_far.empty() || history_[i].doubted) continue;
+    (so_far.size() == 1 ? pairs : more).emplace_back(so_far).push_back(i);
   }
-  for (const auto& ways : {ones, more, pairs})
+  for (const auto& ways : {ones, pairs, more})
     if (auto best = best_explanation(ways)) {
       *this = std::move(*best);
       return;
