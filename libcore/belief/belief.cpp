@@ -18,7 +18,7 @@ constexpr std::size_t least_share = 3;      // of the poses wanted: so many are 
 constexpr double fine_radius = 0.0004;      // m, of cells any pose of which comes near enough as it is
 constexpr std::size_t unproved_share = 8;   // of them anywhere in a cell, for what no other speaks for
 constexpr double stops_per_waypoint = 8.0;  // that can be told apart
-constexpr std::size_t few_cells = 2000;     // enough to tell what an observation left out would leave possible
+constexpr std::size_t few_cells = 400;      // enough to tell what an observation left out would leave possible
 constexpr std::size_t few_at_first = 1u << 16;
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
 
