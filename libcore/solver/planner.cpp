@@ -135,8 +135,8 @@ void Planner::note_fruitless(const belief::Belief& belief) {
                            belief.health() == belief::Health::good;
   if (asked_again) return;
 
-  const std::size_t size = belief.phase() == belief::Phase::voxels ? belief.voxels().possibly_occupied().count()
-                                                                   : belief.cells().size();
+  const std::size_t size =
+      belief.phase() == belief::Phase::voxels ? belief.voxels().possibly_occupied().count() : belief.cells().size();
   const bool is_first = standing_.q.size() == 0;
   if (is_first || size != standing_.size || belief.configuration() != standing_.q)
     standing_.fruitless.clear();
