@@ -64,7 +64,10 @@ static bool lead(pose_trials* trials) {
   if (all->options->phase != phase_poses) return true;
   const trial_course course = {true, NULL, &trials->start, NULL};
   trial_result led;
-  return run_trial(all->setups, trials->seed, trials->true_pose, &course, &led);
+  if (!run_trial(all->setups, trials->seed, trials->true_pose, &course, &led)) return false;
+  fprintf(stderr, "seed %-4" PRIu64 " %-9s led all to: %s\n", trials->seed,
+          tactus_solver_name(all->setups->planner.solver), trial_end_name(led.ended));
+  return true;
 }
 
 static int count_done(const campaign* all) {
