@@ -75,7 +75,10 @@ static bool take_over(compare* c, const run_setting* setting) {
     return false;
   }
   if (o->phase == phase_poses) forget_half_done(&found); /* their beliefs were not kept */
-  if (count_trials(&found) > 0) c->comparison = found;
+  if (count_trials(&found) > 0)
+    c->comparison = found;
+  else
+    free_comparison(&found);
   fprintf(stderr, "%s: %d of %d trials are there\n", o->json, count_trials(&found),
           c->comparison.solver_count * o->trials);
   return true;
