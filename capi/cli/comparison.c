@@ -56,6 +56,8 @@ static bool pair_up(const comparison* c, int solver, int i, trial_phase phase, e
   return first != NULL && effort_of_phase(trial, phase, taken) && effort_of_phase(first, phase, by_first);
 }
 
+static const effort nothing;
+
 static double ratio(double a, double b) { return b > 0.0 ? a / b : (double)NAN; }
 
 /* Of a ratio of sums over pairs: Student's, on its logarithm, with the variance from the residuals a - ratio b [the
@@ -76,7 +78,7 @@ static void set_interval(const comparison* c, int solver, trial_phase phase, dou
 }
 
 static void set_ratios(const comparison* c, int solver, trial_phase phase, standing* made) {
-  effort taken, by_first, sum = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, first_sum = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  effort taken, by_first, sum = nothing, first_sum = nothing;
   for (int i = 0; i < c->results[solver].count; ++i) {
     if (!pair_up(c, solver, i, phase, &taken, &by_first)) continue;
     ++made->common;
@@ -93,7 +95,7 @@ static void set_ratios(const comparison* c, int solver, trial_phase phase, stand
 standing compare_to_first(const comparison* c, int solver, trial_phase phase) {
   const run_result* run = &c->results[solver];
   standing made;
-  effort taken, sum = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  effort taken, sum = nothing;
   memset(&made, 0, sizeof made);
   for (int i = 0; i < run->count; ++i) {
     if (!effort_of_phase(&run->trials[i], phase, &taken)) continue;

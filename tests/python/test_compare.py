@@ -14,7 +14,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TACTUS = pathlib.Path(os.environ.get("TACTUS_BUILD", ROOT / "build" / "release")) / "bin" / "tactus"
 SOLVERS = ["rate", "tbl", "frontier"]
-TRIALS, SEED = 4, 3
+TRIALS, SEED = 3, 3
 CHANGES = [("../../examples", f"{ROOT}/examples"), ("actions: 3", "actions: 9"), ("delta: 400", "delta: 1090\n  particles: 20\n  max_cells: 1000")]
 
 if not TACTUS.exists():
@@ -54,7 +54,7 @@ def whole(shelf, tmp_path_factory):
 @pytest.fixture(scope="module")
 def poses(shelf, tmp_path_factory):
     path = tmp_path_factory.mktemp("compare") / "poses.json"
-    return path, *compare(shelf, path, "--phase", "poses")
+    return path, *compare(shelf, path, "--phase", "poses", "--jobs", 2)
 
 
 def timeless(document):
