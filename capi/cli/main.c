@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   const char* command = argc > 1 ? argv[1] : "";
   tactus_set_log_callback(print_log, NULL);
   if (strcmp(command, "run") == 0) return run_command(argc - 2, argv + 2);
+  if (strcmp(command, "compare") == 0) return compare_command(argc - 2, argv + 2);
   if (strcmp(command, "check") == 0) return check_command(argc - 2, argv + 2);
   if (strcmp(command, "--version") == 0) {
     printf("tactus %s\n", tactus_version_string());
