@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "action/library.hpp"
 
+#include <algorithm>
 #include <bit>
 
 #include "action/primitives.hpp"
@@ -49,17 +50,29 @@ std::vector<MotionPtr> ActionLibrary::primitives_at(const JointVector& q) {
   return primitives_.try_emplace(key, std::move(motions)).first->second;
 }
 
-JointPath ActionLibrary::lead_in(const JointVector& q, const JointVector& start,
-                                 const support::Deadline& deadline) const {
+/// How far the tool is past the retreat plane, m.
+double ActionLibrary::before_plane(const JointVector& q, const JointVector& start) const {
+  const Vector3 axis = task_.frame().base_from_search.linear().col(2);
+  return axis.dot(task_.base_from_tool(q).translation() - task_.base_from_tool(start).translation());
+}
+
+JointPath ActionLibrary::as_far_as_plane(const JointPath& way_back, const JointVector& start) const {
+  const auto there = std::find_if(way_back.begin(), way_back.end(),
+                                  [&](const JointVector& q) { return before_plane(q, start) <= 1e-6; });
+  return {way_back.begin(), there == way_back.end() ? there : there + 1};
+}
+
+/// `path` and the way from its end: out along the tool's axis, and across.
+JointPath ActionLibrary::lead_in(JointPath path, const JointVector& start, const support::Deadline& deadline) const {
   const contact::KnownWorld& world = task_.known_world();
   const double step = task_.options().motion.step;
   const int tool_link = task_.scene().tool_link;
-  JointPath path{q};
+  const JointVector q = path.back();
   if (q == start) return path;
   Pose back = task_.base_from_tool(q);
   const Pose goal = task_.base_from_tool(start);
   const Vector3 axis = task_.frame().base_from_search.linear().col(2), out = task_.frame().tool_axes(back).col(2);
-  const double retreat = axis.dot(back.translation() - goal.translation());
+  const double retreat = before_plane(q, start);
   if (retreat > 1e-6 && out.dot(axis) > least_retreat) {
     back.translation() -= retreat / out.dot(axis) * out;
     if (const auto leg = motion::straight_tool_path(world, tool_link, q, back, step))
@@ -78,10 +91,11 @@ JointPath ActionLibrary::lead_in(const JointVector& q, const JointVector& start,
 }
 
 std::optional<Action> ActionLibrary::realise(const JointVector& q, const Motion& motion,
-                                             const support::Deadline& deadline) const {
+                                             const support::Deadline& deadline, const JointPath& way_back) const {
   const MotionOptions& options = task_.options().motion;
   if (!motion.anchored) return make_action(task_, motion.kind, motion.path, 0, motion.pace);
-  const JointPath lead = lead_in(q, motion.path.front(), deadline);
+  const JointVector& start = motion.path.front();
+  const JointPath lead = lead_in(way_back.empty() ? JointPath{q} : as_far_as_plane(way_back, start), start, deadline);
   if (lead.empty()) return std::nullopt;
   std::vector<motion::PacedSegment> pace{{0, {options.speed, options.acceleration, options.joint_acceleration}}};
   for (motion::PacedSegment segment : motion.pace) {

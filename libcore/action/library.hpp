@@ -38,10 +38,14 @@ class ActionLibrary {
 
   /// The executable action that takes the robot from `q` through `motion`: its way back and over the retreat plane
   /// first if it is anchored, by a planned path where the straight one is not free. None if no free way is found.
-  std::optional<Action> realise(const JointVector& q, const Motion& motion, const support::Deadline& deadline) const;
+  /// `way_back`: a way from `q` that is known to be free of the target too; followed as far as the retreat plane.
+  std::optional<Action> realise(const JointVector& q, const Motion& motion, const support::Deadline& deadline,
+                                const JointPath& way_back = {}) const;
 
  private:
-  JointPath lead_in(const JointVector& q, const JointVector& start, const support::Deadline& deadline) const;
+  JointPath lead_in(JointPath path, const JointVector& start, const support::Deadline& deadline) const;
+  JointPath as_far_as_plane(const JointPath& way_back, const JointVector& start) const;
+  double before_plane(const JointVector& q, const JointVector& start) const;
 
   const Task& task_;
   std::mutex mutex_;

@@ -160,6 +160,16 @@ void Belief::doubt() {
   }
 }
 
+JointPath Belief::way_back() const {
+  JointPath way{q_};
+  for (auto trace = history_.rbegin(); trace != history_.rend(); ++trace) {
+    const auto here = std::find(trace->path.rbegin(), trace->path.rend(), way.back());
+    if (here == trace->path.rend()) break;
+    way.insert(way.end(), here + 1, trace->path.rend());
+  }
+  return way;
+}
+
 bool Belief::is_goal() const {
   if (!cells_ || (!history_.empty() && history_.back().contact)) return false;
   const Pose base_from_tool = task().base_from_tool(q_);

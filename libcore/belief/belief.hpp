@@ -75,6 +75,10 @@ class Belief {
   const VoxelBelief& voxels() const { return *voxels_; }  ///< phase 1 only
   const CellBelief& cells() const { return *cells_; }     ///< phase 2 only
 
+  /// The way by which the robot came to the present configuration, backwards: free of the target as of the rest of the
+  /// world. As far as it is known without a gap; at least the configuration.
+  JointPath way_back() const;
+
   /// At the present configuration every pose in every surviving cell has the tool seated within tolerance, and the last
   /// motion was not stopped by a contact.
   bool is_goal() const;

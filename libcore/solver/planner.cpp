@@ -198,7 +198,8 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   const Search& search = policy_->search;
   const std::vector<Choice>& choices = search.choices(node);
   std::vector<bool> banned(choices.size(), false);
-  if (standing_.stalls >= patience)
+  const bool is_stuck = standing_.stalls >= patience;
+  if (is_stuck)
     for (std::size_t i = 0; i < choices.size(); ++i) banned[i] = !choices[i].motion->anchored;
   const auto next = [&] {
     const auto rule = greedy_of(options_.solver);
@@ -206,7 +207,8 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   };
   for (auto choice = next(); choice; choice = next()) {
     const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
-    auto made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited);
+    auto made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited,
+                                  is_stuck ? belief.way_back() : motion::JointPath{});
     if (made &&
         std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
       made->expected_cost = search.q_value(node, *choice, ValueType::inadmissible);

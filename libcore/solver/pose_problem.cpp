@@ -13,6 +13,7 @@ namespace tactus::solver {
 using action::Motion;
 using action::MotionPtr;
 using geometry::Pose;
+using geometry::Vector3;
 using robot::JointVector;
 using support::Bitset;
 
@@ -38,10 +39,9 @@ class PoseState : public BeliefState {
   std::size_t support_size() const override { return members_.count(); }
 
   Values heuristic() const override {
-    double sum = 0.0;
-    const Pose base_from_tool = problem_->task_->base_from_tool(q_);
-    members_.for_each([&](std::size_t pose) { sum += problem_->direct_cost(base_from_tool, pose); });
-    return values(sum / static_cast<double>(members_.count()), members_.count());
+    std::vector<std::size_t> group;
+    members_.for_each([&](std::size_t pose) { group.push_back(pose); });
+    return values(problem_->task_->base_from_tool(q_), group);
   }
 
   std::vector<Choice> choices() const override {
@@ -71,10 +71,14 @@ class PoseState : public BeliefState {
   }
 
  private:
-  /// h_ad is the mean cost of going straight to the seat; h_inad adds what the missing bits are worth.
-  Values values(double direct, std::size_t count) const {
-    const double share = static_cast<double>(count) / static_cast<double>(problem_->predictions_.poses().size());
-    const double bits = std::max(std::log2(static_cast<double>(count)), problem_->bits_ + std::log2(share));
+  /// h_ad is the mean cost of going straight to the seats; h_inad adds what the missing bits are worth.
+  Values values(const Pose& base_from_tool, const std::vector<std::size_t>& group) const {
+    double direct = 0.0;
+    for (const std::size_t pose : group) direct += problem_->direct_cost(base_from_tool, pose);
+    direct /= static_cast<double>(group.size());
+    if (problem_->policy_) return {direct, std::max(direct, problem_->policy_->cost(group, base_from_tool))};
+    const double share = static_cast<double>(group.size()) / static_cast<double>(problem_->predictions_.poses().size());
+    const double bits = std::max(std::log2(static_cast<double>(group.size())), problem_->bits_ + std::log2(share));
     return {direct, direct + problem_->cost_per_bit_ * std::max(0.0, bits)};
   }
 
@@ -93,17 +97,10 @@ class PoseState : public BeliefState {
       outcome.goal =
           waypoint == motion->path.size() && motion->kind == action::Kind::insertion &&
           std::all_of(group.begin(), group.end(), [&](std::size_t pose) { return problem_->seated(*motion, pose); });
-      if (!outcome.goal) outcome.heuristic = group_heuristic(*motion, waypoint, group);
+      if (!outcome.goal) outcome.heuristic = values(motion->bodies.base_from_body(waypoint - 1, 0), group);
       choice.outcomes.push_back(outcome);
     }
     return choice;
-  }
-
-  Values group_heuristic(const Motion& motion, std::size_t waypoint, const std::vector<std::size_t>& group) const {
-    const Pose& base_from_tool = motion.bodies.base_from_body(waypoint - 1, 0);
-    double sum = 0.0;
-    for (const std::size_t pose : group) sum += problem_->direct_cost(base_from_tool, pose);
-    return values(sum / static_cast<double>(group.size()), group.size());
   }
 
   std::shared_ptr<PoseProblem> problem_;
@@ -113,18 +110,21 @@ class PoseState : public BeliefState {
 };
 
 PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
-                         std::vector<Pose> poses, double bits, double cost_per_bit)
+                         std::vector<Pose> poses, double bits, double cost_per_bit, Second second)
     : task_(std::move(task)),
       library_(std::move(library)),
       predictions_(task_, std::move(poses)),
       bits_(bits),
-      cost_per_bit_(cost_per_bit) {
+      cost_per_bit_(cost_per_bit),
+      second_(second) {
   for (const Pose& pose : predictions_.poses())
     for (std::size_t seat = 0; seat < seats(); ++seat) seated_.push_back(task_->scene().seated(pose, seat));
+  for (std::size_t seat = 0; seat < seated_.size(); ++seat) attempts_.push_back(attempt_at(seat));
   find_neighbours();
 }
 
 BeliefStatePtr PoseProblem::start(const JointVector& q) {
+  if (second_ == Second::upper_bound) policy_ = rate_policy(q);
   auto state = std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_.poses().size(), true), true);
   std::vector<double> cost, gained;
   for (const Choice& choice : state->choices()) {
@@ -203,15 +203,44 @@ std::vector<std::size_t> PoseProblem::seats_of(const Bitset& members, const Join
   return order;
 }
 
-/// Of getting the tool to a seat, the straight way.
+/// From the retreat plane along the approach axis, as `action::insertion` has it.
+Attempt PoseProblem::attempt_at(std::size_t seat) const {
+  const scene::Scene& scene = task_->scene();
+  const Vector3 axis = predictions_.poses()[seat / seats()].linear() * scene.target.approach_axis;
+  const Pose search_from_base = task_->frame().base_from_search.inverse();
+  const double past_plane = (search_from_base * seated_[seat].translation()).z() - task_->frame().standoff;
+  const double to_plane = std::max(scene.target.approach_depth, past_plane / (search_from_base.linear() * axis).z());
+  Attempt attempt{seated_[seat], seated_[seat], task_->options().cost.metre * to_plane};
+  attempt.base_from_start.translation() -= to_plane * axis;
+  return attempt;
+}
+
+/// Over the anchored motions, with the attempts at each pose's first seat.
+std::unique_ptr<RatePolicy> PoseProblem::rate_policy(const JointVector& q) {
+  std::vector<Attempt> attempts;
+  std::vector<Bitset> served;
+  for (std::size_t pose = 0; pose < predictions_.poses().size(); ++pose) {
+    attempts.push_back(attempts_[pose * seats()]);
+    served.emplace_back(predictions_.poses().size());
+    neighbours_[pose * seats()].for_each([&](std::size_t seat) {
+      if (seat % seats() == 0) served.back().set(seat / seats());
+    });
+  }
+  return std::make_unique<RatePolicy>(task_, predictions_, anchored(q), std::move(attempts), std::move(served));
+}
+
+/// Of getting the tool to a seat, the straight way: by the retreat plane, where every attempt sets out.
 double PoseProblem::seat_cost(const Pose& base_from_tool, std::size_t seat) const {
   const action::CostWeights& weights = task_->options().cost;
   const scene::Target& target = task_->scene().target;
-  const double metres = (seated_[seat].translation() - base_from_tool.translation()).norm();
-  const double radians = geometry::angle_between(base_from_tool, seated_[seat]);
+  const Attempt& attempt = attempts_[seat];
+  const double metres = (attempt.base_from_start.translation() - base_from_tool.translation()).norm();
+  const double radians = geometry::angle_between(base_from_tool, attempt.base_from_start);
   const double tilted = target.angle_tolerance * target.target_from_seated[seat % seats()].translation().norm();
-  return weights.metre * std::max(0.0, metres - target.position_tolerance - tilted) +
-         weights.radian * std::max(0.0, radians - target.angle_tolerance) + weights.action;
+  const double tolerance = target.position_tolerance + tilted;
+  return weights.metre * std::max(0.0, metres - tolerance) +
+         weights.radian * std::max(0.0, radians - target.angle_tolerance) +
+         std::max(0.0, attempt.cost - weights.metre * tolerance) + weights.action;
 }
 
 /// The same to the best of a pose's seats.
@@ -229,9 +258,8 @@ geometry::Box PoseProblem::region() const {
   const geometry::Box local = geometry::bounds(task_->scene().target.mesh);
   for (const Pose& pose : predictions_.poses())
     for (int corner = 0; corner < 8; ++corner) {
-      const geometry::Vector3 p(corner & 1 ? local.high.x() : local.low.x(),
-                                corner & 2 ? local.high.y() : local.low.y(),
-                                corner & 4 ? local.high.z() : local.low.z());
+      const Vector3 p(corner & 1 ? local.high.x() : local.low.x(), corner & 2 ? local.high.y() : local.low.y(),
+                      corner & 4 ? local.high.z() : local.low.z());
       box.add(search_from_base * (pose * p));
     }
   return box;

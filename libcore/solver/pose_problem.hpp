@@ -6,6 +6,7 @@
 #include "belief/belief.hpp"
 #include "solver/predictions.hpp"
 #include "solver/problem.hpp"
+#include "solver/rate_policy.hpp"
 
 namespace tactus::solver {
 
@@ -13,9 +14,13 @@ namespace tactus::solver {
 /// and where each pose is first touched on each motion. One thread.
 class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
  public:
+  /// The second value function, beside the lower bound: h_inad = h_ad + cost per bit x bits, or the upper bound that is
+  /// what going on by `RatePolicy` costs.
+  enum class Second { greedy, upper_bound };
+
   /// `bits`: log2 of how many tolerances the full belief spans; `cost_per_bit` in units of cost.
   PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
-              std::vector<geometry::Pose> poses, double bits, double cost_per_bit);
+              std::vector<geometry::Pose> poses, double bits, double cost_per_bit, Second second = Second::greedy);
 
   /// The belief at the start: all poses.
   BeliefStatePtr start(const robot::JointVector& q);
@@ -30,6 +35,8 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   std::vector<action::MotionPtr> insertions(const support::Bitset& members, const robot::JointVector& q,
                                             std::size_t most);
   std::vector<std::size_t> seats_of(const support::Bitset& members, const robot::JointVector& q) const;
+  Attempt attempt_at(std::size_t seat) const;
+  std::unique_ptr<RatePolicy> rate_policy(const robot::JointVector& q);
   double seat_cost(const geometry::Pose& base_from_tool, std::size_t seat) const;
   double direct_cost(const geometry::Pose& base_from_tool, std::size_t pose) const;
   geometry::Box region() const;
@@ -39,8 +46,11 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   Predictions predictions_;
   std::vector<geometry::Pose> seated_;       ///< tool link, base frame: the seats of the first pose, of the next, ...
   std::vector<support::Bitset> neighbours_;  ///< by seat: those that one attempt may serve, itself among them
+  std::vector<Attempt> attempts_;            ///< by seat
   double bits_;
   double cost_per_bit_;
+  Second second_;
+  std::unique_ptr<RatePolicy> policy_;  ///< once there is a start, if its cost is the second value
   std::vector<action::MotionPtr> anchored_;
   bool anchored_made_ = false;
   std::unordered_map<std::size_t, action::MotionPtr> insertions_;

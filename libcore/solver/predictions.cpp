@@ -13,6 +13,11 @@ std::size_t Predictions::first_contact(const action::MotionPtr& motion, std::siz
   return static_cast<std::size_t>(stored);
 }
 
+const std::vector<std::int32_t>& Predictions::first_contacts(const action::MotionPtr& motion) {
+  for (std::size_t pose = 0; pose < poses_.size(); ++pose) first_contact(motion, pose);
+  return rows_.at(motion.get()).first_contact;
+}
+
 std::map<std::size_t, std::vector<std::size_t>> Predictions::split(const action::MotionPtr& motion,
                                                                    const support::Bitset& members) {
   std::map<std::size_t, std::vector<std::size_t>> groups;

@@ -20,6 +20,9 @@ class Predictions {
   /// The waypoint of the first contact; the path's size if there is none.
   std::size_t first_contact(const action::MotionPtr& motion, std::size_t pose);
 
+  /// The same of every pose.
+  const std::vector<std::int32_t>& first_contacts(const action::MotionPtr& motion);
+
   /// The members of a set of poses by their first contact, ascending.
   std::map<std::size_t, std::vector<std::size_t>> split(const action::MotionPtr& motion,
                                                         const support::Bitset& members);

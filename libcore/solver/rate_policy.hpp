@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <unordered_map>
+
+#include "solver/predictions.hpp"
+
+namespace tactus::solver {
+
+/// An insertion attempt at a supposed pose, as far as it need be known to weigh it.
+struct Attempt {
+  geometry::Pose base_from_start = geometry::Pose::Identity();   ///< of the tool, on the retreat plane
+  geometry::Pose base_from_seated = geometry::Pose::Identity();  ///< of the tool
+  double cost = 0.0;                                             ///< from the one to the other, in units of cost
+};
+
+/// What a simple policy costs that always ends: the motion with the most information per cost, again and again, until
+/// attempts at the poses that are left, one after another, are cheaper. It chooses among anchored motions, whatever the
+/// robot's configuration, so that a set of poses is weighed once. An upper bound of the value of a belief on these
+/// poses, as far as the ways over the retreat plane and the attempts are free. One thread.
+class RatePolicy {
+ public:
+  using Members = std::vector<std::size_t>;  ///< poses, ascending
+
+  /// By pose: the attempt at it, and the poses that it serves.
+  RatePolicy(std::shared_ptr<const action::Task> task, Predictions& predictions, std::vector<action::MotionPtr> motions,
+             std::vector<Attempt> attempts, std::vector<support::Bitset> served);
+
+  /// Expected cost until the tool is seated, if the target is at one of these poses (not empty), from where the tool
+  /// is.
+  double cost(const Members& members, const geometry::Pose& base_from_tool);
+
+ private:
+  struct Plan {
+    geometry::Pose base_from_start = geometry::Pose::Identity();  ///< of the first motion
+    double cost = 1e300;                                          ///< from there on
+  };
+  const Plan& plan(const Members& members);
+  Plan attempts_at(const Members& members) const;
+  Plan probing(const Members& members);
+  double lead(const geometry::Pose& base_from_tool, const geometry::Pose& base_from_start) const;
+  void split(const std::vector<std::int32_t>& first_contact, const Members& members);
+
+  struct HashOf {
+    std::size_t operator()(const support::Hash128& h) const { return h.low; }
+  };
+  std::shared_ptr<const action::Task> task_;
+  std::vector<action::MotionPtr> motions_;
+  std::vector<const std::vector<std::int32_t>*> first_contacts_;  ///< by motion
+  std::vector<Attempt> attempts_;
+  std::vector<support::Bitset> served_;
+  std::unordered_map<support::Hash128, Plan, HashOf> plans_;
+  std::vector<std::pair<std::int32_t, std::size_t>> sorted_;  ///< of the last split: first contact, pose
+};
+
+}  // namespace tactus::solver
