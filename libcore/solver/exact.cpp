@@ -89,17 +89,16 @@ std::vector<ExactSolver::Move> ExactSolver::moves_from(std::size_t place, const 
 
 /// The least Q of the motions that part the poses or reach the goal with all of them.
 double ExactSolver::best_split(std::size_t place, const Bitset& poses) {
-  std::vector<Weighed> motions;
-  for (const Instance::Results& results : instance_->configurations[place].results) {
-    if (results.empty()) continue;
-    auto outcomes = split(results, poses);
-    if (outcomes.size() == 1 && outcomes.begin()->first != Instance::goal) continue;
-    motions.push_back(weigh(results, std::move(outcomes), poses));
-  }
-  std::stable_sort(motions.begin(), motions.end(),
-                   [](const Weighed& a, const Weighed& b) { return a.bound < b.bound; });
+  std::vector<std::pair<double, const Instance::Results*>> motions;
+  for (const Instance::Results& results : instance_->configurations[place].results)
+    if (!results.empty()) motions.emplace_back(informed_cost(results, poses), &results);
+  std::stable_sort(motions.begin(), motions.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   double best = infinity;
-  for (const Weighed& motion : motions) {
+  for (const auto& [least, results] : motions) {
+    if (least >= best) break;
+    auto outcomes = split(*results, poses);
+    if (outcomes.size() == 1 && outcomes.begin()->first != Instance::goal) continue;
+    const Weighed motion = weigh(*results, std::move(outcomes), poses);
     double q = motion.bound;
     for (const Child& child : motion.children) {
       if (q >= best) break;
@@ -108,6 +107,17 @@ double ExactSolver::best_split(std::size_t place, const Bitset& poses) {
     best = std::min(best, q);
   }
   return best;
+}
+
+/// Of a motion and what comes after it if the pose were known then.
+double ExactSolver::informed_cost(const Instance::Results& results, const Bitset& poses) const {
+  double sum = 0.0;
+  poses.for_each([&](std::size_t pose) {
+    const auto& [to, cost] = results[pose];
+    const double ahead = to == Instance::goal ? 0.0 : informed_[static_cast<std::size_t>(to)][pose];
+    sum += instance_->weight[pose] * (cost + discount_ * ahead);
+  });
+  return sum / weight_of(*instance_, poses);
 }
 
 ExactSolver::Weighed ExactSolver::weigh(const Instance::Results& results, std::map<int, Bitset> outcomes,
@@ -129,19 +139,21 @@ double ExactSolver::expected_cost(const Instance::Results& results, const Bitset
   return sum / weight_of(*instance_, poses);
 }
 
-/// A belief is a mixture of its pairs, each weighted by what its poses weigh.
+/// A belief is a mixture of pairs of its poses, each weighted by what the two weigh, and of the one that is left over.
 double ExactSolver::bound(std::size_t place, const Bitset& poses) {
-  if (poses.count() == 1) return informed(place, poses);
-  double sum = 0.0, weights = 0.0;
-  poses.for_each([&](std::size_t a) {
-    poses.for_each([&](std::size_t b) {
-      if (b >= a) return;
-      const double weight = instance_->weight[a] + instance_->weight[b];
-      sum += weight * pair_value(place, a, b);
-      weights += weight;
-    });
+  constexpr std::size_t none = SIZE_MAX;
+  double sum = 0.0;
+  std::size_t first = none;
+  poses.for_each([&](std::size_t pose) {
+    if (first == none) {
+      first = pose;
+    } else {
+      sum += (instance_->weight[first] + instance_->weight[pose]) * pair_value(place, pose, first);
+      first = none;
+    }
   });
-  return sum / weights;
+  if (first != none) sum += instance_->weight[first] * informed_[place][first];
+  return sum / weight_of(*instance_, poses);
 }
 
 /// A bound that does not ask for the values of pairs where these are what is being solved.

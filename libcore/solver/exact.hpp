@@ -54,6 +54,7 @@ class ExactSolver {
   double best_split(std::size_t place, const support::Bitset& poses);
   Weighed weigh(const Instance::Results& results, std::map<int, support::Bitset> outcomes,
                 const support::Bitset& poses);
+  double informed_cost(const Instance::Results& results, const support::Bitset& poses) const;
   double expected_cost(const Instance::Results& results, const support::Bitset& poses) const;
   double bound(std::size_t place, const support::Bitset& poses);
   double quick_bound(std::size_t place, const support::Bitset& poses);

@@ -59,7 +59,7 @@ inline solver::InstancePtr random_instance(support::Rng& rng, const RandomInstan
     instance.configurations.push_back({robot::JointVector::Constant(1, static_cast<double>(i)), rng.below(2) == 0, {}});
   }
   for (std::size_t probe = 0; probe < is.probes; ++probe)
-    add_motion(instance, "probe" + std::to_string(probe), random_results(rng, is, 4), random_point(rng), places, rng,
+    add_motion(instance, "probe" + std::to_string(probe), random_results(rng, is, 8), random_point(rng), places, rng,
                0.9);
   for (std::size_t pose = 0; pose < is.poses; ++pose) {
     auto results = random_results(rng, is, 3);
