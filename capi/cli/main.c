@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
   tactus_set_log_callback(print_log, NULL);
   if (strcmp(command, "run") == 0) return run_command(argc - 2, argv + 2);
   if (strcmp(command, "check") == 0) return check_command(argc - 2, argv + 2);
+  if (strcmp(command, "export") == 0) return export_command(argc - 2, argv + 2);
+  if (strcmp(command, "evaluate") == 0) return evaluate_command(argc - 2, argv + 2);
   if (strcmp(command, "--version") == 0) {
     printf("tactus %s\n", tactus_version_string());
     return exit_good;

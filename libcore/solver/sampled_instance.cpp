@@ -139,27 +139,50 @@ class Maker {
     return task_.scene().is_seated(motion.bodies.base_from_body(motion.path.size() - 1, 0), pose);
   }
 
-  /// One after the other, that which tells the poses apart best together with those before it.
+  /// A sweep or poke, and where each pose ends it: the waypoint to which the robot backs off, or the path's size.
+  struct Probe {
+    MotionPtr motion;
+    std::vector<std::size_t> end;
+  };
+
+  /// One after the other, that which tells the poses apart best together with those before it, and by itself.
   void choose_probes() {
-    std::vector<MotionPtr> candidates = action::probes(task_, task_.frame().region, task_.home());
-    std::vector<Touches> told(poses());
-    double known = 0.0;
-    while (probes_.size() < options_.motions) {
-      std::size_t best = candidates.size();
-      double most = known + 1e-9;
+    constexpr double alone = 0.01;
+    std::vector<Probe> candidates = telling_probes();
+    std::vector<std::vector<std::size_t>> told(poses());
+    while (probes_.size() < options_.motions && !candidates.empty()) {
+      std::size_t best = 0;
+      double most = -1.0;
       for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const double bits = entropy(with(told, touched(*candidates[i])), all());
+        const auto& end = candidates[i].end;
+        const double bits = entropy(with(told, end), all()) + alone * entropy(end, all());
         if (bits > most) most = bits, best = i;
       }
-      if (best == candidates.size()) break;
-      told = with(told, touched(*candidates[best]));
-      known = most;
-      probes_.push_back(candidates[best]);
+      told = with(told, candidates[best].end);
+      probes_.push_back(candidates[best].motion);
       candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(best));
     }
   }
 
-  static std::vector<Touches> with(std::vector<Touches> told, const Touches& more) {
+  std::vector<Probe> telling_probes() const {
+    std::vector<Probe> result;
+    for (const MotionPtr& motion : action::probes(task_, task_.frame().region, task_.home())) {
+      const Touches contacts = touched(*motion);
+      std::vector<std::size_t> end = stops(contacts, motion->path.size(), all(), stops_per_probe());
+      for (std::size_t pose = 0; pose < poses(); ++pose)
+        if (contacts[pose] == motion->path.size()) end[pose] = motion->path.size();
+      if (entropy(end, all()) > 0.0) result.push_back({motion, std::move(end)});
+    }
+    return result;
+  }
+
+  /// After a contact. Half of the configurations are for where sweeps and pokes end, one of each being the path's end.
+  std::size_t stops_per_probe() const {
+    return std::max<std::size_t>(options_.configurations / 2 / options_.motions, 2) - 1;
+  }
+
+  static std::vector<std::vector<std::size_t>> with(std::vector<std::vector<std::size_t>> told,
+                                                    const std::vector<std::size_t>& more) {
     for (std::size_t pose = 0; pose < told.size(); ++pose) told[pose].push_back(more[pose]);
     return told;
   }
@@ -192,12 +215,10 @@ class Maker {
     return results;
   }
 
-  /// Half of the configurations are for where sweeps and pokes end.
   void add_probe(const MotionPtr& motion) {
-    const std::size_t share = options_.configurations / 2 / probes_.size();
     made_.motions.push_back((motion->kind == action::Kind::sweep ? "sweep" : "poke") +
                             std::to_string(anchored_.size()));
-    anchored_.push_back({motion, results_of(*motion, touched(*motion), all(), std::max<std::size_t>(share, 2) - 1)});
+    anchored_.push_back({motion, results_of(*motion, touched(*motion), all(), stops_per_probe())});
   }
 
   void add_insertion(std::size_t i) {
