@@ -39,7 +39,7 @@ const char* const usage =
     "options of export and evaluate:\n"
     "  --poses N                  drawn from the prior (15)\n"
     "  --configurations N         at most (60)\n"
-    "  --motions N                sweeps and pokes, at most (8); beside an insertion at each pose, and small moves\n"
+    "  --motions N                sweeps and pokes, at most (6); beside an insertion at each pose, and small moves\n"
     "  --discount G               of the cost of each further motion (0.999)\n"
     "  --seed S                   of the draw (1)\n"
     "  --pomdpx FILE              export: PomdpX, for SARSOP; - for stdout\n"

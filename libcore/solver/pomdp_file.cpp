@@ -54,8 +54,11 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+/// One line.
 std::string description(const Instance& instance) {
-  return instance.name + ": " + std::to_string(instance.weight.size()) + " poses, " +
+  std::string name = instance.name;
+  std::replace(name.begin(), name.end(), '\n', ' ');
+  return name + ": " + std::to_string(instance.weight.size()) + " poses, " +
          std::to_string(instance.configurations.size()) + " configurations, " +
          std::to_string(instance.motions.size()) + " motions. Rewards are costs, negated.";
 }

@@ -10,7 +10,7 @@ namespace tactus::solver {
 struct SampleOptions {
   std::size_t poses = 15;
   std::size_t configurations = 60;  ///< at most
-  std::size_t motions = 8;          ///< sweeps and pokes, at most; beside them an insertion attempt at each pose
+  std::size_t motions = 6;          ///< sweeps and pokes, at most; beside them an insertion attempt at each pose
   double discount = 0.999;
 };
 
