@@ -22,7 +22,7 @@ typedef struct tactus_instance tactus_instance;
 typedef struct tactus_instance_options {
   uint32_t struct_size;
   uint32_t poses;          /**< drawn from the prior, of equal weight; 1 to 1000 */
-  uint32_t configurations; /**< at most; 4 to 1000 */
+  uint32_t configurations; /**< at most; 5 to 1000 */
   uint32_t motions; /**< sweeps and pokes, at most, 1 to 1000; beside them an insertion attempt at each pose, and small
                          moves from where sweeps and pokes end */
   double discount;  /**< of the cost of each further motion, in (0, 1]; public solvers need less than 1 */

@@ -23,6 +23,8 @@ using support::Status;
 constexpr int tries_per_pose = 100;
 constexpr std::size_t touches = 2;  // small moves from a configuration
 constexpr std::size_t largest = 1000;
+constexpr std::size_t fixed_configurations = 3;  // the start, and home after a contact and without
+constexpr std::size_t least_configurations = fixed_configurations + 2;  // where a contact and the end take the robot
 
 void check(const SampleOptions& options) {
   const auto within = [](const char* name, std::size_t found, std::size_t least) {
@@ -32,7 +34,7 @@ void check(const SampleOptions& options) {
                                                 std::to_string(largest));
   };
   within("poses", options.poses, 1);
-  within("configurations", options.configurations, 4);
+  within("configurations", options.configurations, least_configurations);
   within("motions", options.motions, 1);
   if (!(options.discount > 0.0 && options.discount <= 1.0))
     throw Error(Status::invalid_argument, "instance options: discount: found " + std::to_string(options.discount) +
@@ -150,7 +152,7 @@ class Maker {
     constexpr double alone = 0.01;
     std::vector<Probe> candidates = telling_probes();
     std::vector<std::vector<std::size_t>> told(poses());
-    while (probes_.size() < options_.motions && !candidates.empty()) {
+    while (probes_.size() < most_probes() && !candidates.empty()) {
       std::size_t best = 0;
       double most = -1.0;
       for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -178,7 +180,11 @@ class Maker {
 
   /// After a contact. Half of the configurations are for where sweeps and pokes end, one of each being the path's end.
   std::size_t stops_per_probe() const {
-    return std::max<std::size_t>(options_.configurations / 2 / options_.motions, 2) - 1;
+    return std::max<std::size_t>(options_.configurations / 2 / most_probes(), 2) - 1;
+  }
+
+  std::size_t most_probes() const {
+    return std::min(options_.motions, (options_.configurations - fixed_configurations) / 2);
   }
 
   static std::vector<std::vector<std::size_t>> with(std::vector<std::vector<std::size_t>> told,
@@ -245,7 +251,7 @@ class Maker {
     const std::vector<Bitset> with = poses_by_end();
     for (std::size_t slot = 0; slot < touches; ++slot)
       for (std::size_t place = static_cast<std::size_t>(home_touched_) + 1; place < with.size(); ++place)
-        if (with[place].count() > 1 && made_.configurations.size() + touches <= options_.configurations)
+        if (with[place].count() > 1 && made_.configurations.size() + 2 <= options_.configurations)
           add_touch(place, slot, with);
   }
 
