@@ -5,10 +5,11 @@
 
 #include <iostream>
 #include <limits>
-#include <set>
+#include <map>
 
 #include "solver/evaluation.hpp"
 #include "solver/exact.hpp"
+#include "solver/greedy.hpp"
 #include "solver/random_instance.hpp"
 #include "solver/search.hpp"
 
@@ -22,6 +23,7 @@ using solver::InstancePtr;
 using solver::InstanceState;
 using solver::Search;
 using solver::Solver;
+using solver::ValueType;
 using support::Bitset;
 using support::Deadline;
 using support::Rng;
@@ -29,10 +31,6 @@ using support::Rng;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double exact = 1e-9;
 constexpr int instances = 20;
-
-const InstanceState& state_of(const Search& search, int node) {
-  return dynamic_cast<const InstanceState&>(search.state(node));
-}
 
 solver::PlannerOptions options(Solver solver, std::uint64_t expansions) {
   solver::PlannerOptions made;
@@ -145,37 +143,98 @@ TEST(ExactSolver, SaysWhenThereAreTooManyBeliefs) {
   EXPECT_FALSE(solver.value(0, Bitset(instance->weight.size(), true)));
 }
 
-/// A solver with bounds: what it says of a belief, and the optimum.
-TEST(Search, AdmissibleValuesAreBelowTheOptimumOfInstancesOfThirtyPoses) {
+Bitset all_poses(const Instance& instance) { return Bitset(instance.weight.size(), true); }
+
+/// Of thirty poses and more, fifty-five motions and more, undiscounted as the search is.
+std::vector<InstancePtr> instances_of_thirty_poses() {
   Rng rng(3);
-  double closest = 0.0, executed = 0.0;
-  std::size_t met = 0, solved = 0;
+  std::vector<InstancePtr> made;
   for (int i = 0; i < instances; ++i) {
-    const InstancePtr instance = random_instance(rng, {.poses = 30 + rng.below(6), .equal_weights = i % 2 == 0});
+    Instance instance = *random_instance(rng, {.poses = 30 + rng.below(6), .equal_weights = i % 2 == 0});
+    instance.discount = 1.0;
+    made.push_back(std::make_shared<const Instance>(std::move(instance)));
+  }
+  return made;
+}
+
+/// L <= V* <= U at every belief that a search has met, where `bounds(node)` says what it knows of each.
+template <typename Searched, typename Bounds>
+std::size_t expect_bounds(const Searched& search, ExactSolver& solver, Bounds&& bounds) {
+  for (int node = 0; node < static_cast<int>(search.size()); ++node) {
+    const auto& state = dynamic_cast<const InstanceState&>(search.state(node));
+    const auto best = solver.value(state.place(), state.poses());
+    const auto [lower, upper] = bounds(node);
+    EXPECT_TRUE(best);
+    EXPECT_LE(lower, best.value_or(infinity) + exact);
+    EXPECT_GE(upper, best.value_or(-infinity) - exact);
+  }
+  return search.size();
+}
+
+TEST(Search, AdmissibleValuesAreBelowTheOptimumAtEveryBeliefMet) {
+  std::size_t met = 0, solved = 0;
+  double closeness = 0.0;
+  for (const InstancePtr& instance : instances_of_thirty_poses()) {
+    ASSERT_GE(instance->weight.size(), 30u);
     ASSERT_GE(instance->motions.size(), 50u);
     ExactSolver solver(instance, 1.0);
     Search search(InstanceState::start(instance), {0.5, 8});
     Deadline deadline(infinity, 100);
     search.run(deadline);
-    for (int node = 0; node < static_cast<int>(search.size()); ++node) {
-      const InstanceState& state = state_of(search, node);
-      const auto best = solver.value(state.place(), state.poses());
-      ASSERT_TRUE(best);
-      ASSERT_LE(search.value(node, solver::ValueType::admissible), *best + exact);
-      ++met;
-    }
-    const double best = *solver.value(0, Bitset(instance->weight.size(), true));
-    auto undiscounted = *instance;
-    undiscounted.discount = 1.0;
-    const auto run = evaluate(std::make_shared<const Instance>(undiscounted), options(Solver::rtdp_bel, 100));
-    ASSERT_NEAR(run.inserted, 1.0, exact);
-    ASSERT_GE(run.expected_cost, best - exact);
-    closest += search.value(0, solver::ValueType::admissible) / best / instances;
-    executed += run.expected_cost / best / instances;
+    met += expect_bounds(search, solver,
+                         [&](int node) { return std::pair(search.value(node, ValueType::admissible), infinity); });
+    closeness += search.value(0, ValueType::admissible) / *solver.value(0, all_poses(*instance)) / instances;
     solved += solver.beliefs();
   }
-  std::cout << met << " beliefs met, " << solved << " solved; lower bound / optimum " << closest
-            << ", executed cost / optimum " << executed << "\n";
+  EXPECT_GT(met, 20u * instances);
+  std::cout << met << " beliefs met, " << solved << " solved; lower bound / optimum at the start " << closeness << "\n";
+}
+
+TEST(Evaluation, NoPolicyBeatsTheOptimum) {
+  const std::vector<solver::PlannerOptions> policies{options(Solver::rtdp_bel, 30), options(Solver::rtdp_bel, 100),
+                                                     options(Solver::rtdp_inad, 100), options(Solver::rate, 1),
+                                                     options(Solver::tbl, 1)};
+  std::vector<double> ratio(policies.size(), 0.0);
+  for (const InstancePtr& instance : instances_of_thirty_poses()) {
+    ExactSolver solver(instance, 1.0);
+    const double best = *solver.value(0, all_poses(*instance));
+    for (std::size_t i = 0; i < policies.size(); ++i) {
+      const solver::Evaluation run = evaluate(instance, policies[i]);
+      ASSERT_NEAR(run.inserted, 1.0, exact);
+      ASSERT_GE(run.expected_cost, best - exact);
+      ASSERT_LE(run.lower_bound, best + exact);
+      ratio[i] += run.expected_cost / best / instances;
+    }
+  }
+  for (std::size_t i = 0; i < policies.size(); ++i)
+    std::cout << name_of(policies[i].solver) << ", " << policies[i].budget_expansions << " expansions: cost / optimum "
+              << ratio[i] << "\n";
+  EXPECT_LT(ratio[0], 1.05);
+  EXPECT_LT(ratio[1], 1.05);
+}
+
+/// One pose after the other, by the rule as it stands.
+TEST(Evaluation, IsWhatRunningThePolicyAtEachPoseCosts) {
+  Rng rng(4);
+  const InstancePtr instance = random_instance(rng, {.equal_weights = false});
+  double expected = 0.0, worst = 0.0;
+  for (std::size_t pose = 0; pose < instance->weight.size(); ++pose) {
+    double cost = 0.0, discount = 1.0;
+    auto state = InstanceState::start(instance);
+    for (int to = 0; to != Instance::goal; discount *= instance->discount) {
+      const auto choices = state->choices();
+      const auto& choice = choices.at(*solver::greedy_choice(choices, solver::Greedy::rate));
+      const auto& results = instance->configurations[state->place()].results[state->motion_of(choice)];
+      cost += discount * results[pose].cost;
+      to = results[pose].to;
+      if (to != Instance::goal) state = state->at(static_cast<std::size_t>(to), split(results, state->poses()).at(to));
+    }
+    expected += instance->weight[pose] * cost;
+    worst = std::max(worst, cost);
+  }
+  const solver::Evaluation run = evaluate(instance, options(Solver::rate, 1));
+  EXPECT_NEAR(run.expected_cost, expected, exact);
+  EXPECT_NEAR(run.worst_cost, worst, exact);
 }
 
 }  // namespace
