@@ -25,16 +25,19 @@ ExactSolver::ExactSolver(InstancePtr instance, double discount, std::size_t most
       pairs_(instance_->weight.size() * instance_->weight.size()) {}
 
 std::optional<double> ExactSolver::value(std::size_t place, const Bitset& poses) {
-  try {
-    return solved(place, poses);
-  } catch (const TooMany&) {
-    return std::nullopt;
-  }
+  return within_limit([&] { return solved(place, poses); });
 }
 
 std::optional<double> ExactSolver::lower_bound(std::size_t place, const Bitset& poses) {
+  return within_limit([&] { return bound(place, poses); });
+}
+
+/// What was being solved when the limit was passed is half done, and not to be trusted.
+template <typename Solve>
+std::optional<double> ExactSolver::within_limit(Solve&& solve) {
+  if (beliefs_ > most_beliefs_) return std::nullopt;
   try {
-    return bound(place, poses);
+    return solve();
   } catch (const TooMany&) {
     return std::nullopt;
   }

@@ -48,6 +48,8 @@ class ExactSolver {
     std::size_t operator()(const support::Hash128& h) const { return h.low; }
   };
 
+  template <typename Solve>
+  std::optional<double> within_limit(Solve&& solve);
   double solved(std::size_t place, const support::Bitset& poses);
   void solve(Layer& layer, std::size_t place, const support::Bitset& poses);
   std::vector<Move> moves_from(std::size_t place, const support::Bitset& poses) const;

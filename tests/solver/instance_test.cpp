@@ -123,7 +123,7 @@ TEST(ExactSolver, AgreesWithValueIterationOverAllBeliefs) {
   for (const double discount : {1.0, 0.999})
     for (int i = 0; i < 4; ++i) {
       const InstancePtr instance =
-          random_instance(rng, {.poses = 6, .probes = 4, .configurations = 4, .equal_weights = i % 2 == 0});
+          random_instance(rng, {.poses = 7, .probes = 5, .configurations = 5, .equal_weights = i % 2 == 0});
       const PlainSolver plain(*instance, discount);
       ExactSolver solver(instance, discount);
       std::size_t checked = 0;
@@ -140,7 +140,10 @@ TEST(ExactSolver, SaysWhenThereAreTooManyBeliefs) {
   Rng rng(2);
   const InstancePtr instance = random_instance(rng);
   ExactSolver solver(instance, 1.0, 10);
-  EXPECT_FALSE(solver.value(0, Bitset(instance->weight.size(), true)));
+  const Bitset all(instance->weight.size(), true);
+  EXPECT_FALSE(solver.value(0, all));
+  EXPECT_FALSE(solver.value(0, all)) << "nor later, from what was left half done";
+  EXPECT_FALSE(solver.lower_bound(0, all));
 }
 
 Bitset all_poses(const Instance& instance) { return Bitset(instance.weight.size(), true); }
