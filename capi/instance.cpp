@@ -2,7 +2,6 @@
 #include "tactus/instance.h"
 
 #include <limits>
-#include <sstream>
 
 #include "handles.hpp"
 #include "solver/evaluation.hpp"
@@ -32,14 +31,9 @@ tactus_evaluation evaluation_of(const solver::Evaluation& from) {
 }
 
 std::string exported(const solver::Instance& instance, int32_t format) {
-  std::ostringstream out;
-  if (format == TACTUS_FORMAT_POMDPX)
-    solver::write_pomdpx(instance, out);
-  else if (format == TACTUS_FORMAT_POMDP)
-    solver::write_pomdp(instance, out);
-  else
-    reject("format", std::to_string(format), "one of TACTUS_FORMAT_*");
-  return out.str();
+  if (format == TACTUS_FORMAT_POMDPX) return solver::pomdpx(instance);
+  if (format == TACTUS_FORMAT_POMDP) return solver::pomdp(instance);
+  reject("format", std::to_string(format), "one of TACTUS_FORMAT_*");
 }
 
 }  // namespace

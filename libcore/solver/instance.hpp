@@ -41,8 +41,8 @@ using InstancePtr = std::shared_ptr<const Instance>;
 /// The poses of a set by where a motion takes the robot: what is known after it.
 std::map<int, support::Bitset> split(const Instance::Results& results, const support::Bitset& poses);
 
-/// What is known after a motion from `configuration` may be what was known before, and the robot where it was: such a
-/// motion is not worth making.
+/// What is known is what was known before, and the robot is where it was: such a motion is not made. (With a discount
+/// putting things off could pay, were a motion's cost below 1 - discount of all that is to come.)
 bool is_idle(const std::map<int, support::Bitset>& outcomes, std::size_t configuration);
 
 double weight_of(const Instance& instance, const support::Bitset& poses);

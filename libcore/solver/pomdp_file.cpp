@@ -3,31 +3,21 @@
 
 #include <algorithm>
 #include <iomanip>
-#include <ostream>
+#include <locale>
+#include <sstream>
 
 namespace tactus::solver {
 namespace {
 
 using support::Bitset;
 
-/// Plain decimals, whatever the stream was set to before.
-class Decimals {
- public:
-  explicit Decimals(std::ostream& out) : out_(out), flags_(out.flags()), precision_(out.precision(12)) {
-    out.setf(std::ios::fixed, std::ios::floatfield);
-  }
-  ~Decimals() {
-    out_.flags(flags_);
-    out_.precision(precision_);
-  }
-  Decimals(const Decimals&) = delete;
-  Decimals& operator=(const Decimals&) = delete;
-
- private:
-  std::ostream& out_;
-  std::ios::fmtflags flags_;
-  std::streamsize precision_;
-};
+/// For plain decimals, whatever the locale.
+std::ostringstream text() {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::fixed << std::setprecision(12);
+  return out;
+}
 
 std::string place_name(const Instance& instance, int place) {
   if (place == Instance::goal) return "goal";
@@ -48,9 +38,9 @@ Instance::Result result_of(const Instance& instance, std::size_t place, std::siz
   return results.empty() ? Instance::Result{static_cast<int>(place), blocked} : results[pose];
 }
 
-std::string escaped(const std::string& text) {
+std::string escaped(const std::string& plain) {
   std::string result;
-  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  for (const char c : plain) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
   return result;
 }
 
@@ -203,8 +193,8 @@ double blocked_cost(const Instance& instance) {
   return most;
 }
 
-void write_pomdpx(const Instance& instance, std::ostream& out) {
-  const Decimals decimals(out);
+std::string pomdpx(const Instance& instance) {
+  std::ostringstream out = text();
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<pomdpx version=\"1.0\" id=\"tactus\" "
       << "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xsi:noNamespaceSchemaLocation=\"pomdpx.xsd\">\n"
       << "<Description>" << escaped(description(instance)) << "</Description>\n<Discount>" << instance.discount
@@ -214,10 +204,11 @@ void write_pomdpx(const Instance& instance, std::ostream& out) {
   write_transitions(instance, out);
   write_rewards(instance, out);
   out << "</pomdpx>\n";
+  return out.str();
 }
 
-void write_pomdp(const Instance& instance, std::ostream& out) {
-  const Decimals decimals(out);
+std::string pomdp(const Instance& instance) {
+  std::ostringstream out = text();
   const std::vector<Bitset> states = reachable(instance);
   const double blocked = blocked_cost(instance);
   write_preamble(instance, states, out);
@@ -230,6 +221,7 @@ void write_pomdp(const Instance& instance, std::ostream& out) {
           << " 1.0\nR: " << instance.motions[motion] << " : " << from << " : * : * " << -result.cost << "\n";
     }
   });
+  return out.str();
 }
 
 }  // namespace tactus::solver

@@ -274,25 +274,13 @@ double best_reward(const Model& model) {
   return nodes.front().value;
 }
 
-std::string as_pomdpx(const Instance& instance) {
-  std::ostringstream out;
-  solver::write_pomdpx(instance, out);
-  return out.str();
-}
-
-std::string as_pomdp(const Instance& instance) {
-  std::ostringstream out;
-  solver::write_pomdp(instance, out);
-  return out.str();
-}
-
 TEST(PomdpFile, HoldsTheInstance) {
   Rng rng(1);
   for (int i = 0; i < 4; ++i) {
     const InstancePtr instance =
         random_instance(rng, {.poses = 8, .probes = 6, .configurations = 5, .equal_weights = i % 2 == 0});
-    expect_is(read_pomdpx(as_pomdpx(*instance)), *instance, true);
-    expect_is(read_pomdp(as_pomdp(*instance)), *instance, false);
+    expect_is(read_pomdpx(solver::pomdpx(*instance)), *instance, true);
+    expect_is(read_pomdp(solver::pomdp(*instance)), *instance, false);
   }
 }
 
@@ -303,15 +291,15 @@ TEST(PomdpFile, IsSolvedAtTheSameCostAsTheInstance) {
         random_instance(rng, {.poses = 5, .probes = 4, .configurations = 4, .equal_weights = i % 2 == 0});
     solver::ExactSolver solver(instance, instance->discount);
     const double optimum = *solver.value(0, support::Bitset(instance->weight.size(), true));
-    EXPECT_NEAR(best_reward(read_pomdpx(as_pomdpx(*instance))), -optimum, exact);
-    EXPECT_NEAR(best_reward(read_pomdp(as_pomdp(*instance))), -optimum, exact);
+    EXPECT_NEAR(best_reward(read_pomdpx(solver::pomdpx(*instance))), -optimum, exact);
+    EXPECT_NEAR(best_reward(read_pomdp(solver::pomdp(*instance))), -optimum, exact);
   }
 }
 
 TEST(PomdpFile, NothingButTheGoalIsFree) {
   Rng rng(3);
   const InstancePtr instance = random_instance(rng, {.poses = 8, .probes = 6, .configurations = 5});
-  for (const Model& model : {read_pomdpx(as_pomdpx(*instance)), read_pomdp(as_pomdp(*instance))})
+  for (const Model& model : {read_pomdpx(solver::pomdpx(*instance)), read_pomdp(solver::pomdp(*instance))})
     for (const auto& [key, reward] : model.reward)
       if (key.second != "goal") {
         EXPECT_LT(reward, 0.0) << key.first << " at " << key.second;
@@ -322,8 +310,8 @@ TEST(PomdpFile, ANameMayHoldAnything) {
   Rng rng(4);
   Instance instance = *random_instance(rng, {.poses = 3, .probes = 1, .configurations = 2});
   instance.name = "a<b> &\nstates: \"c\"";
-  expect_is(read_pomdp(as_pomdp(instance)), instance, false);
-  expect_is(read_pomdpx(as_pomdpx(instance)), instance, true);
+  expect_is(read_pomdp(solver::pomdp(instance)), instance, false);
+  expect_is(read_pomdpx(solver::pomdpx(instance)), instance, true);
 }
 
 }  // namespace
