@@ -11,6 +11,7 @@
 
 typedef struct {
   const trial_setup* setup;
+  const trial_course* course;
   trial_result* result;
   tactus_world* world;
   tactus_belief* belief;
@@ -18,26 +19,35 @@ typedef struct {
   tactus_observation observation; /* of the last action */
   tactus_summary summary;         /* of the belief as it is */
   tactus_statistics statistics;   /* of the last query */
+  double led_m, led_rad;          /* what the tool frame went and turned until the trial began */
   recording* record;              /* may be NULL */
   time_t began;
 } episode;
 
 /* --- what is measured */
 
-static tactus_status measure(episode* e) {
+/* Notes the hand-over when it comes. */
+static void notice_hand_over(episode* e) {
   trial_result* r = e->result;
+  const bool has_voxels = e->setup->belief.kind == TACTUS_BELIEF_HIERARCHICAL && e->course->from == NULL;
+  if (has_voxels && e->summary.phase == TACTUS_PHASE_POSES && isnan(r->voxels.cost_m)) r->voxels = r->whole;
+}
+
+static tactus_status measure(episode* e) {
+  effort* whole = &e->result->whole;
   const tactus_costs* costs = &e->setup->costs;
-  tactus_status status = tactus_world_travelled(e->world, &r->travel_m, &r->rotation_rad);
+  tactus_status status = tactus_world_travelled(e->world, &whole->travel_m, &whole->rotation_rad);
   if (status == TACTUS_OK) status = tactus_belief_summary(e->belief, &e->summary);
   if (status == TACTUS_OK) status = tactus_planner_statistics(e->planner, &e->statistics);
-  r->cost_m = costs->metre * r->travel_m + costs->radian * r->rotation_rad + costs->action * r->actions;
-  r->planner_calls = e->statistics.total_calls;
-  r->planning_s = e->statistics.total_seconds;
-  r->expansions = e->statistics.total_expansions;
-  const bool poses = e->summary.phase == TACTUS_PHASE_POSES;
-  if (poses && isnan(r->phase1_cost_m) && e->setup->belief.kind == TACTUS_BELIEF_HIERARCHICAL)
-    r->phase1_cost_m = r->cost_m;
-  return status;
+  if (status != TACTUS_OK) return status;
+  whole->travel_m -= e->led_m;
+  whole->rotation_rad -= e->led_rad;
+  whole->cost_m = costs->metre * whole->travel_m + costs->radian * whole->rotation_rad + costs->action * whole->actions;
+  whole->planner_calls = (double)e->statistics.total_calls;
+  whole->planning_s = e->statistics.total_seconds;
+  e->result->expansions = e->statistics.total_expansions;
+  notice_hand_over(e);
+  return TACTUS_OK;
 }
 
 /* The belief's mean against the truth, and whether the plug is in. */
@@ -60,13 +70,16 @@ static tactus_status measure_end(episode* e) {
 
 /* --- the loop */
 
+static const char* solver_name(const episode* e) { return tactus_solver_name(e->setup->planner.solver); }
+
 static void print_progress(const episode* e, const char* kind) {
   const trial_result* r = e->result;
   const bool voxels = e->summary.phase == TACTUS_PHASE_VOXELS;
-  fprintf(stderr, "seed %-4" PRIu64 " %3d  %-9s  %-10s  %s %6" PRIu64 "  %5.1f bits  cost %7.3f  planning %6.2f s%s\n",
-          r->seed, r->actions, kind, e->observation.contact ? "contact" : "no contact", voxels ? "voxels" : "cells ",
-          voxels ? e->summary.possibly_occupied : e->summary.cells, e->summary.bits, r->cost_m, r->planning_s,
-          e->summary.health == TACTUS_HEALTH_GOOD ? "" : "  contradicted");
+  fprintf(stderr,
+          "seed %-4" PRIu64 " %-9s %3.0f  %-9s  %-10s  %s %6" PRIu64 "  %5.1f bits  cost %7.3f  planning %6.2f s%s\n",
+          r->seed, solver_name(e), r->whole.actions, kind, e->observation.contact ? "contact" : "no contact",
+          voxels ? "voxels" : "cells ", voxels ? e->summary.possibly_occupied : e->summary.cells, e->summary.bits,
+          r->whole.cost_m, r->whole.planning_s, e->summary.health == TACTUS_HEALTH_GOOD ? "" : "  contradicted");
 }
 
 /* Executes an action, and takes in what is seen. */
@@ -80,22 +93,23 @@ static tactus_status perform(episode* e, const tactus_action* action) {
   if (status == TACTUS_OK) status = tactus_belief_step(e->belief, action, &e->observation);
   if (status == TACTUS_OK) status = tactus_belief_contains(e->belief, r->true_pose, &kept);
   if (status != TACTUS_OK) return status;
-  r->actions += 1;
+  r->whole.actions += 1.0;
   r->contacts += e->observation.contact;
   r->truth_kept = r->truth_kept && kept != 0;
   status = measure(e);
   if (status != TACTUS_OK) return status;
   const char* kind = tactus_action_kind_name(properties.kind);
   print_progress(e, kind);
-  const step_facts facts = {kind, r->cost_m, r->planning_s};
+  const step_facts facts = {kind, r->whole.cost_m, r->whole.planning_s};
   if (e->record != NULL && !record_step(e->record, action, &e->observation, e->belief, &facts)) return TACTUS_INTERNAL;
   return TACTUS_OK;
 }
 
-static trial_end limit_reached(const episode* e) {
+static trial_end end_reached(const episode* e) {
   const tactus_limits* limits = &e->setup->limits;
-  if (e->result->actions >= limits->actions) return trial_at_limit_of_actions;
-  if (e->result->travel_m >= limits->travel) return trial_at_limit_of_travel;
+  if (e->course->until_hand_over && !isnan(e->result->voxels.cost_m)) return trial_at_hand_over;
+  if (e->result->whole.actions >= limits->actions) return trial_at_limit_of_actions;
+  if (e->result->whole.travel_m >= limits->travel) return trial_at_limit_of_travel;
   if (difftime(time(NULL), e->began) >= limits->seconds) return trial_at_limit_of_time;
   return trial_goes_on;
 }
@@ -104,37 +118,79 @@ static trial_end ending(const episode* e, tactus_status status) {
   if (status == TACTUS_GOAL_REACHED) return trial_at_goal;
   if (status == TACTUS_NO_INFORMATIVE_ACTION) return trial_out_of_actions;
   if (status == TACTUS_CANCELLED) return trial_cancelled;
-  fprintf(stderr, "tactus run: seed %" PRIu64 ": %s: %s\n", e->result->seed, tactus_status_name(status),
+  fprintf(stderr, "tactus: seed %" PRIu64 ": %s: %s: %s\n", e->result->seed, solver_name(e), tactus_status_name(status),
           tactus_last_error());
   return trial_failed;
 }
 
+/* The action is the head start's from now on. */
+static tactus_status keep_action(head_start* start, tactus_action* action) {
+  if (start->count == start->room) {
+    const int room = 2 * start->room + 16;
+    tactus_action** actions = realloc(start->actions, (size_t)room * sizeof *actions);
+    if (actions == NULL) {
+      tactus_action_destroy(action);
+      return TACTUS_OUT_OF_MEMORY;
+    }
+    start->actions = actions;
+    start->room = room;
+  }
+  start->actions[start->count++] = action;
+  return TACTUS_OK;
+}
+
+static tactus_status step(episode* e) {
+  tactus_action* action = NULL;
+  tactus_status status = tactus_planner_query_action(e->planner, e->belief, &action);
+  if (status == TACTUS_OK) status = perform(e, action);
+  if (status == TACTUS_OK && e->course->keep != NULL) return keep_action(e->course->keep, action);
+  tactus_action_destroy(action);
+  return status;
+}
+
 static void loop(episode* e) {
-  for (;;) {
-    tactus_action* action = NULL;
-    tactus_status status = tactus_planner_query_action(e->planner, e->belief, &action);
-    if (status == TACTUS_OK) status = perform(e, action);
-    tactus_action_destroy(action);
-    e->result->ended = status == TACTUS_OK ? limit_reached(e) : ending(e, status);
-    if (e->result->ended != trial_goes_on) break;
+  e->result->ended = end_reached(e);
+  while (e->result->ended == trial_goes_on) {
+    const tactus_status status = step(e);
+    e->result->ended = status == TACTUS_OK ? end_reached(e) : ending(e, status);
   }
   if (measure(e) != TACTUS_OK || measure_end(e) != TACTUS_OK) e->result->ended = ending(e, TACTUS_INTERNAL);
 }
 
 /* --- a trial */
 
-static tactus_status begin(episode* e, uint64_t seed) {
+void free_head_start(head_start* start) {
+  for (int i = 0; i < start->count; ++i) tactus_action_destroy(start->actions[i]);
+  free(start->actions);
+  tactus_belief_destroy(start->belief);
+  memset(start, 0, sizeof *start);
+}
+
+/* The same world and the same actions: the robot comes to where it was. */
+static tactus_status begin_from(episode* e, const head_start* start) {
+  tactus_status status = tactus_belief_clone(start->belief, &e->belief);
+  for (int i = 0; status == TACTUS_OK && i < start->count; ++i)
+    status = tactus_world_execute(e->world, start->actions[i], &e->observation);
+  return status == TACTUS_OK ? tactus_world_travelled(e->world, &e->led_m, &e->led_rad) : status;
+}
+
+static tactus_status begin(episode* e) {
   const trial_setup* setup = e->setup;
   tactus_planner_options planner = setup->planner;
   tactus_world_options world = setup->world;
-  planner.seed = world.seed = seed;
-  tactus_summary_init(&e->summary, sizeof e->summary);
-  tactus_statistics_init(&e->statistics, sizeof e->statistics);
-  tactus_observation_init(&e->observation, sizeof e->observation);
+  planner.seed = world.seed = e->result->seed;
   tactus_status status = tactus_world_create(setup->scenario, e->result->true_pose, &world, &e->world);
-  if (status == TACTUS_OK) status = tactus_belief_create(setup->scenario, &setup->belief, setup->start, &e->belief);
+  if (status == TACTUS_OK)
+    status = e->course->from != NULL ? begin_from(e, e->course->from)
+                                     : tactus_belief_create(setup->scenario, &setup->belief, setup->start, &e->belief);
   if (status == TACTUS_OK) status = tactus_planner_create(setup->scenario, &planner, &e->planner);
-  return status;
+  return status == TACTUS_OK ? measure(e) : status;
+}
+
+static bool begin_recording(episode* e) {
+  FILE* file = e->course->record;
+  if (file != NULL) e->record = record_begin(file, e->setup->scenario, e->belief, e->result->true_pose);
+  return file == NULL || e->record != NULL;
 }
 
 static void init_result(trial_result* result, uint64_t seed, const double true_pose[7]) {
@@ -142,30 +198,50 @@ static void init_result(trial_result* result, uint64_t seed, const double true_p
   memcpy(result->true_pose, true_pose, sizeof result->true_pose);
   result->seed = seed;
   result->truth_kept = true;
-  result->phase1_cost_m = result->position_error_m = result->angle_error_rad = NAN;
+  result->position_error_m = result->angle_error_rad = NAN;
+  result->voxels = (effort){NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
-bool run_trial(const trial_setup* setup, uint64_t seed, const double true_pose[7], FILE* record, trial_result* result) {
-  episode e;
-  memset(&e, 0, sizeof e);
-  init_result(result, seed, true_pose);
-  e.setup = setup;
-  e.result = result;
-  e.began = time(NULL);
-  double* joints = malloc(setup->dof * sizeof *joints);
-  bool good = joints != NULL && begin(&e, seed) == TACTUS_OK;
-  if (good && record != NULL) good = (e.record = record_begin(record, setup->scenario, e.belief, true_pose)) != NULL;
-  if (good) {
-    e.observation.joints = joints;
-    e.observation.joint_count = setup->dof;
-    loop(&e);
-  } else {
-    fprintf(stderr, "tactus run: seed %" PRIu64 ": %s\n", seed, tactus_last_error());
+static void init_episode(episode* e, const trial_setup* setup, const trial_course* course, trial_result* result) {
+  memset(e, 0, sizeof *e);
+  e->setup = setup;
+  e->course = course;
+  e->result = result;
+  e->began = time(NULL);
+  tactus_summary_init(&e->summary, sizeof e->summary);
+  tactus_statistics_init(&e->statistics, sizeof e->statistics);
+  tactus_observation_init(&e->observation, sizeof e->observation);
+}
+
+static void end(episode* e) {
+  record_end(e->record, e->result->inserted);
+  if (e->course->keep != NULL && e->result->ended == trial_at_hand_over) {
+    e->course->keep->belief = e->belief;
+    e->belief = NULL;
   }
-  record_end(e.record, result->inserted);
-  tactus_planner_destroy(e.planner);
-  tactus_belief_destroy(e.belief);
-  tactus_world_destroy(e.world);
+  tactus_planner_destroy(e->planner);
+  tactus_belief_destroy(e->belief);
+  tactus_world_destroy(e->world);
+}
+
+bool run_trial(const trial_setup* setup, uint64_t seed, const double true_pose[7], const trial_course* course,
+               trial_result* result) {
+  episode e;
+  init_result(result, seed, true_pose);
+  init_episode(&e, setup, course, result);
+  if (course->from != NULL && course->from->belief == NULL) {
+    result->ended = trial_without_hand_over;
+    return true;
+  }
+  double* joints = malloc(setup->dof * sizeof *joints);
+  e.observation.joints = joints;
+  e.observation.joint_count = setup->dof;
+  const bool good = joints != NULL && begin(&e) == TACTUS_OK && begin_recording(&e);
+  if (good)
+    loop(&e);
+  else
+    fprintf(stderr, "tactus: seed %" PRIu64 ": %s: %s\n", seed, solver_name(&e), tactus_last_error());
+  end(&e);
   free(joints);
   return good;
 }

@@ -7,7 +7,7 @@
 #include "result.h"
 #include "tactus/tactus.h"
 
-/* What all trials of a run have in common. */
+/* What all trials of a solver have in common. */
 typedef struct {
   const tactus_scenario* scenario;
   tactus_belief_options belief;
@@ -19,8 +19,26 @@ typedef struct {
   size_t dof;
 } trial_setup;
 
-/* One trial from the start to its end: `seed` is the planner's and the world's, the target is at `true_pose`. Progress
- * goes to stderr, a recording to `record` if that is not NULL. False if there could be no trial: stderr says why. */
-bool run_trial(const trial_setup* setup, uint64_t seed, const double true_pose[7], FILE* record, trial_result* result);
+/* A belief at the hand-over, and the actions that led to it: with them a new world comes to where the robot was. */
+typedef struct {
+  tactus_belief* belief;   /* NULL if there was no hand-over */
+  tactus_action** actions; /* count of them, room for `room` */
+  int count, room;
+} head_start;
+
+void free_head_start(head_start* start);
+
+/* How a trial is played. */
+typedef struct {
+  bool until_hand_over;
+  const head_start* from; /* NULL: from the scenario's start */
+  head_start* keep;       /* takes in what was done until the hand-over, if not NULL */
+  FILE* record;           /* takes in a recording, if not NULL */
+} trial_course;
+
+/* One trial: `seed` is the planner's and the world's, the target is at `true_pose`. What it costs to get to where it
+ * begins does not count. Progress goes to stderr. False if there could be no trial: stderr says why. */
+bool run_trial(const trial_setup* setup, uint64_t seed, const double true_pose[7], const trial_course* course,
+               trial_result* result);
 
 #endif

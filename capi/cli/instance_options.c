@@ -9,6 +9,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char* const instance_usage =
+    "\n"
+    "options of export and evaluate:\n"
+    "  --poses N                  drawn from the prior (15)\n"
+    "  --configurations N         at most (60)\n"
+    "  --motions N                sweeps and pokes, at most (6); beside an insertion at each pose, and small moves\n"
+    "  --discount G               of the cost of each further motion (0.999)\n"
+    "  --seed S                   of the draw (1)\n"
+    "of export alone:\n"
+    "  --pomdpx FILE              PomdpX, for SARSOP; - for stdout\n"
+    "  --pomdp FILE               Cassandra's format, for pomdp-solve; - for stdout\n"
+    "of evaluate alone:\n"
+    "  --solver NAME              as for run\n"
+    "  --budget-expansions E      for one planning call (100)\n"
+    "  --most-beliefs N           to be solved for the optimum (200000)\n"
+    "  --json FILE                the results; - for stdout\n";
+
 enum { default_expansions = 100, default_beliefs = 200000 };
 
 /* An option and where its value goes; one of the pointers is set. */

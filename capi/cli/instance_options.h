@@ -6,6 +6,9 @@
 
 #include "tactus/tactus.h"
 
+/* What `tactus --help` says of the options below; to follow `usage`. */
+extern const char* const instance_usage;
+
 /* What `tactus export` or `tactus evaluate` was asked for; NULL and 0 where an option was not given. */
 typedef struct {
   const char* scenario;

@@ -69,6 +69,7 @@ void json_member_value(FILE* out, const void* object, const json_member* member)
     case member_whole:
       fprintf(out, "%" PRIu64, *(const uint64_t*)value);
       break;
+    case member_count:
     case member_double:
       json_number(out, *numbers, json_full);
       break;

@@ -22,8 +22,9 @@ enum { json_full = 9, json_short = 5 }; /* significant digits: of results; of wh
 /* A member of a struct as JSON has it. A table of these serves to write the struct and to read it back. */
 typedef struct {
   const char* key;
-  enum { member_text, member_bool, member_int, member_whole, member_double, member_doubles } type;
-  size_t offset; /* of char[count], bool, int, uint64_t, double, double[count]; the last is null if its first is NAN */
+  enum { member_text, member_bool, member_int, member_whole, member_count, member_double, member_doubles } type;
+  size_t offset; /* of char[count], bool, int, uint64_t, double (whole or NAN), double, double[count] (null if its first
+                    is NAN) */
   size_t count;
 } json_member;
 

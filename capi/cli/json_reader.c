@@ -14,7 +14,7 @@ bool json_complain(const json_reader* reader, const char* expected) {
   int line = 1;
   for (const char* c = reader->text; c < reader->at; ++c) line += *c == '\n';
   const int shown = (int)strcspn(reader->at, "\n");
-  fprintf(stderr, "tactus run: %s:%d: found ", reader->path, line);
+  fprintf(stderr, "tactus: %s:%d: found ", reader->path, line);
   if (*reader->at == '\0')
     fputs("the end of the file", stderr);
   else
@@ -39,6 +39,24 @@ bool json_expect_key(json_reader* reader, const char* key) {
   char token[64];
   snprintf(token, sizeof token, "\"%s\":", key);
   return json_expect(reader, token);
+}
+
+/* To behind a text that begins here. */
+static void skip_text(json_reader* reader) {
+  for (++reader->at; *reader->at != '\0' && *reader->at != '"'; ++reader->at)
+    if (reader->at[0] == '\\' && reader->at[1] != '\0') ++reader->at;
+}
+
+bool json_skip(json_reader* reader) {
+  int depth = 0;
+  for (; *reader->at != '\0'; ++reader->at) {
+    if (depth == 0 && strchr(",]}", *reader->at) != NULL) return true;
+    if (strchr("[{", *reader->at) != NULL) ++depth;
+    if (strchr("]}", *reader->at) != NULL) --depth;
+    if (*reader->at == '"') skip_text(reader);
+    if (*reader->at == '\0') break;
+  }
+  return json_complain(reader, "a value before this");
 }
 
 bool json_expect_end(json_reader* reader) {
@@ -93,6 +111,15 @@ static bool read_bool(json_reader* reader, bool* value) {
   return *value || json_next(reader, "false") || json_complain(reader, "true or false");
 }
 
+static bool read_count(json_reader* reader, double* value) {
+  uint64_t whole = 0;
+  *value = NAN;
+  if (json_next(reader, "null")) return true;
+  if (!json_read_whole(reader, &whole, UINT64_MAX)) return false;
+  *value = (double)whole;
+  return true;
+}
+
 static bool read_number(json_reader* reader, double* value) {
   *value = NAN;
   if (json_next(reader, "null")) return true;
@@ -121,6 +148,8 @@ static bool read_value(json_reader* reader, void* value, const json_member* memb
       return read_int(reader, value);
     case member_whole:
       return json_read_whole(reader, value, UINT64_MAX);
+    case member_count:
+      return read_count(reader, value);
     case member_double:
       return read_number(reader, value);
     case member_doubles:

@@ -22,6 +22,9 @@ bool json_complain(const json_reader* reader, const char* expected);
 bool json_next(json_reader* reader, const char* token);
 bool json_expect(json_reader* reader, const char* token);
 bool json_expect_key(json_reader* reader, const char* key);
+/* Passes a value, whatever it is. */
+bool json_skip(json_reader* reader);
+
 bool json_expect_end(json_reader* reader);
 
 bool json_read_text(json_reader* reader, char* text, size_t room);

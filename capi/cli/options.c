@@ -12,20 +12,20 @@
 #include "results_file.h"
 
 const char* const usage =
-    "usage: tactus run SCENARIO [options]   find the target by touch, in simulation\n"
-    "       tactus check SCENARIO           name everything that is wrong with a scenario\n"
+    "usage: tactus run SCENARIO [options]       find the target by touch, in simulation\n"
+    "       tactus compare SCENARIO [options]   the same trials by several solvers, and what each takes beside the "
+    "first\n"
+    "       tactus check SCENARIO               name everything that is wrong with a scenario\n"
     "       tactus export SCENARIO [options]    write a small instance of it for public POMDP solvers\n"
     "       tactus evaluate SCENARIO [options]  what a policy costs on such an instance, and the least possible\n"
     "       tactus --version | --help\n"
     "\n"
-    "options of run:\n"
+    "options of run and compare:\n"
     "  --trials N                 how many (1); trial i draws the true pose from the prior with seed S + i\n"
     "  --seed S                   (1)\n"
-    "  --solver NAME              rtdp-bel, rtdp-inad, rtdp-ad, brtdp-bel, tbl, frontier or rate (the scenario's)\n"
     "  --belief KIND              hierarchical or particles (the scenario's)\n"
     "  --budget-seconds B         for one planning call (the scenario's)\n"
     "  --budget-expansions E      the same, counted: same seed, same actions, on every machine\n"
-    "  --true-pose x,y,z,r,p,y    of the target in the robot's base frame, m and rad, instead of drawing it\n"
     "  --stopping-distance M      that the simulated robot may travel on after a contact (the scenario's)\n"
     "  --encoder-error M          by which what it reports may be off (the scenario's)\n"
     "  --missed-contacts P        share of motions in which it feels no contact (the scenario's)\n"
@@ -34,23 +34,21 @@ const char* const usage =
     "                             with --budget-expansions the results are the same for every J, limits of time apart\n"
     "  --json FILE                results, saved whole after every trial; - for stdout, at the end\n"
     "  --resume                   run only the trials that FILE does not have; its others must be of the same options\n"
+    "\n"
+    "of run alone:\n"
+    "  --solver NAME              rtdp-bel, rtdp-inad, rtdp-ad, brtdp-bel, tbl, frontier or rate (the scenario's)\n"
+    "  --true-pose x,y,z,r,p,y    of the target in the robot's base frame, m and rad, instead of drawing it\n"
     "  --record FILE              the first trial, for a replay page\n"
     "\n"
-    "options of export and evaluate:\n"
-    "  --poses N                  drawn from the prior (15)\n"
-    "  --configurations N         at most (60)\n"
-    "  --motions N                sweeps and pokes, at most (6); beside an insertion at each pose, and small moves\n"
-    "  --discount G               of the cost of each further motion (0.999)\n"
-    "  --seed S                   of the draw (1)\n"
-    "  --pomdpx FILE              export: PomdpX, for SARSOP; - for stdout\n"
-    "  --pomdp FILE               export: Cassandra's format, for pomdp-solve\n"
-    "  --solver NAME              evaluate: as for run\n"
-    "  --budget-expansions E      evaluate: for one planning call (100)\n"
-    "  --most-beliefs N           evaluate: to be solved for the optimum (200000)\n"
-    "  --json FILE                evaluate: the results; - for stdout\n"
+    "of compare alone:\n"
+    "  --solvers A,B,...          two or more, the one that the others are measured by first\n"
+    "  --phase PHASE              whole (the default); voxels: trials end when poses take over from voxels; poses: "
+    "they\n"
+    "                             begin there, every solver with the belief to which the first solver has come\n"
     "\n"
-    "Progress goes to stderr, results to stdout. Exit status: 0 all inserted, 1 some were not, 2 usage or scenario "
-    "error.\n";
+    "Progress goes to stderr, results to stdout. Exit status: 0 all inserted (with --phase voxels: all came to poses), "
+    "1\n"
+    "some were not, 2 usage or scenario error.\n";
 
 static bool read_count(const char* text, uint64_t low, uint64_t high, uint64_t* value) {
   char* end = NULL;
@@ -82,8 +80,14 @@ static bool read_six(const char* text, double* values) {
   return true;
 }
 
+static bool read_phase(const char* text, trial_phase* phase) {
+  for (*phase = phase_whole; *phase < phase_count; ++*phase)
+    if (strcmp(text, trial_phase_name(*phase)) == 0) return true;
+  return false;
+}
+
 /* The same as `take`, for an option that says what the simulated robot does; `*known` is false for another option. */
-static const char* take_sensing(const char* name, const char* value, run_options* options, bool* known) {
+static const char* take_sensing(const char* name, const char* value, trial_options* options, bool* known) {
   const struct {
     const char* name;
     double* field;
@@ -103,13 +107,17 @@ static const char* take_sensing(const char* name, const char* value, run_options
 }
 
 /* Takes in one option; what was expected if its value makes no sense, NULL if it does. */
-static const char* take(const char* name, const char* value, run_options* options) {
+static const char* take(const char* name, const char* value, trial_options* options) {
   uint64_t count = 0;
   bool known = false;
   const char* expected = take_sensing(name, value, options, &known);
   if (known) return expected;
   if (strcmp(name, "--solver") == 0) {
     options->solver = value;
+  } else if (strcmp(name, "--solvers") == 0) {
+    options->solvers = value;
+  } else if (strcmp(name, "--phase") == 0) {
+    if (!read_phase(value, &options->phase)) return "whole, voxels or poses";
   } else if (strcmp(name, "--belief") == 0) {
     options->belief = value;
     if (strcmp(value, "hierarchical") != 0 && strcmp(value, "particles") != 0) return "hierarchical or particles";
@@ -136,59 +144,63 @@ static const char* take(const char* name, const char* value, run_options* option
   return NULL;
 }
 
-static bool is_option(const char* name) {
-  static const char* const names[] = {"--trials",
-                                      "--seed",
-                                      "--jobs",
-                                      "--solver",
-                                      "--belief",
-                                      "--budget-seconds",
-                                      "--budget-expansions",
-                                      "--json",
-                                      "--record",
-                                      "--true-pose",
-                                      "--stopping-distance",
-                                      "--encoder-error",
-                                      "--missed-contacts",
-                                      "--false-contacts"};
-  for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
-    if (strcmp(name, names[i]) == 0) return true;
+/* Whether the command has this option. */
+static bool has_option(const char* command, const char* name) {
+  static const struct {
+    const char *name, *only; /* the one command that has it; NULL: both have */
+  } all[] = {{"--trials", NULL},         {"--seed", NULL},
+             {"--jobs", NULL},           {"--belief", NULL},
+             {"--budget-seconds", NULL}, {"--budget-expansions", NULL},
+             {"--json", NULL},           {"--stopping-distance", NULL},
+             {"--encoder-error", NULL},  {"--missed-contacts", NULL},
+             {"--false-contacts", NULL}, {"--solver", "run"},
+             {"--true-pose", "run"},     {"--record", "run"},
+             {"--solvers", "compare"},   {"--phase", "compare"}};
+  for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
+    if (strcmp(name, all[i].name) == 0) return all[i].only == NULL || strcmp(command, all[i].only) == 0;
   return false;
 }
 
-static bool complain(const char* about, const char* what) {
-  fprintf(stderr, "tactus run: %s: %s\n", about, what);
+static bool complain(const char* command, const char* about, const char* what) {
+  fprintf(stderr, "tactus %s: %s: %s\n", command, about, what);
   return false;
 }
 
-bool parse_run_options(int argc, char** argv, run_options* options) {
+static bool take_next(const char* command, const char* name, const char* value, trial_options* options) {
+  if (!has_option(command, name)) return complain(command, name, "unknown option, see tactus --help");
+  if (value == NULL) return complain(command, name, "expected a value");
+  const char* expected = take(name, value, options);
+  if (expected == NULL) return true;
+  fprintf(stderr, "tactus %s: %s: found '%s', expected %s\n", command, name, value, expected);
+  return false;
+}
+
+/* What one option alone can't tell. */
+static bool make_sense(const char* command, const trial_options* options) {
+  if (options->scenario == NULL) return complain(command, "SCENARIO", "expected a scenario file, see tactus --help");
+  if (options->resume && (options->json == NULL || !is_replaceable(options->json)))
+    return complain(command, "--resume", "expected --json and a file that keeps the trials");
+  if (options->resume && options->record != NULL)
+    return complain(command, "--record", "expected no --resume, with which the first trial may not be run");
+  return true;
+}
+
+bool parse_options(const char* command, int argc, char** argv, trial_options* options) {
   memset(options, 0, sizeof *options);
   options->trials = options->jobs = 1;
   options->seed = 1;
   options->stopping_distance = options->encoder_error = options->missed_contacts = options->false_contacts = -1.0;
   for (int i = 0; i < argc; ++i) {
-    if (strncmp(argv[i], "--", 2) != 0) {
-      if (options->scenario != NULL) return complain(argv[i], "expected one scenario only");
+    const bool is_scenario = strncmp(argv[i], "--", 2) != 0;
+    if (is_scenario && options->scenario != NULL) return complain(command, argv[i], "expected one scenario only");
+    if (is_scenario)
       options->scenario = argv[i];
-      continue;
-    }
-    const char* name = argv[i];
-    if (strcmp(name, "--resume") == 0) {
+    else if (strcmp(argv[i], "--resume") == 0)
       options->resume = true;
-      continue;
-    }
-    if (!is_option(name)) return complain(name, "unknown option, see tactus --help");
-    if (++i == argc) return complain(name, "expected a value");
-    const char* expected = take(name, argv[i], options);
-    if (expected != NULL) {
-      fprintf(stderr, "tactus run: %s: found '%s', expected %s\n", name, argv[i], expected);
+    else if (take_next(command, argv[i], i + 1 < argc ? argv[i + 1] : NULL, options))
+      ++i;
+    else
       return false;
-    }
   }
-  if (options->scenario == NULL) return complain("SCENARIO", "expected a scenario file, see tactus --help");
-  if (options->resume && (options->json == NULL || !is_replaceable(options->json)))
-    return complain("--resume", "expected --json and a file that keeps the trials");
-  if (options->resume && options->record != NULL)
-    return complain("--record", "expected no --resume, with which the first trial may not be run");
-  return true;
+  return make_sense(command, options);
 }

@@ -5,12 +5,17 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "result.h"
+
 enum { most_jobs = 256 };
 
-/* What `tactus run` was asked for. Strings are those of the command line; NULL and 0 where an option was not given. */
+/* What `tactus run` or `tactus compare` was asked for. Strings are those of the command line; NULL and 0 where an
+ * option was not given. */
 typedef struct {
   const char* scenario;
   const char* solver;
+  const char* solvers; /* with commas */
+  trial_phase phase;
   const char* belief;
   const char* json;
   const char* record;
@@ -25,11 +30,11 @@ typedef struct {
   /* of the simulated robot; negative where not given */
   double stopping_distance, encoder_error; /* m */
   double missed_contacts, false_contacts;  /* shares */
-} run_options;
+} trial_options;
 
 extern const char* const usage;
 
-/* Reads what follows `tactus run`. On a mistake says what is wrong on stderr and returns false. */
-bool parse_run_options(int argc, char** argv, run_options* options);
+/* Reads what follows `tactus` and the command. On a mistake says what is wrong on stderr and returns false. */
+bool parse_options(const char* command, int argc, char** argv, trial_options* options);
 
 #endif

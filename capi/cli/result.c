@@ -1,20 +1,47 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "result.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 const char* trial_end_name(trial_end end) {
-  static const char* const names[trial_end_count] = {"goes on",         "goal reached", "no informative action",
-                                                     "cancelled",       "error",        "limit of actions",
-                                                     "limit of travel", "limit of time"};
+  static const char* const names[trial_end_count] = {
+      "goes on",          "goal reached",    "no informative action", "cancelled", "error",
+      "limit of actions", "limit of travel", "limit of time",         "hand-over", "no hand-over"};
   return names[end];
 }
 
-bool has_trial(const run_result* run, uint64_t seed) {
-  for (int i = 0; i < run->count; ++i)
-    if (run->trials[i].seed == seed) return true;
-  return false;
+const char* trial_phase_name(trial_phase phase) {
+  static const char* const names[phase_count] = {"whole", "voxels", "poses"};
+  return names[phase];
+}
+
+void add_effort(effort* sum, const effort* other, double times) {
+  sum->cost_m += times * other->cost_m;
+  sum->travel_m += times * other->travel_m;
+  sum->rotation_rad += times * other->rotation_rad;
+  sum->actions += times * other->actions;
+  sum->planner_calls += times * other->planner_calls;
+  sum->planning_s += times * other->planning_s;
+}
+
+bool effort_of_phase(const trial_result* trial, trial_phase phase, effort* taken) {
+  const bool handed_over = !isnan(trial->voxels.cost_m);
+  *taken = phase == phase_voxels ? trial->voxels : trial->whole;
+  if (phase == phase_voxels) return handed_over;
+  if (phase == phase_poses && handed_over) add_effort(taken, &trial->voxels, -1.0);
+  return trial->inserted || (phase == phase_whole && trial->ended == trial_at_hand_over);
+}
+
+static int compare_seeds(const void* seed, const void* trial) {
+  const uint64_t one = *(const uint64_t*)seed, other = ((const trial_result*)trial)->seed;
+  return (one > other) - (one < other);
+}
+
+const trial_result* find_trial(const run_result* run, uint64_t seed) {
+  if (run->count == 0) return NULL;
+  return bsearch(&seed, run->trials, (size_t)run->count, sizeof *run->trials, compare_seeds);
 }
 
 bool add_trial(run_result* run, const trial_result* trial) {
@@ -40,14 +67,9 @@ run_summary summarise(const run_result* run) {
     const double share = 1.0 / run->count;
     sum.inserted += trial->inserted;
     sum.truth_kept += trial->truth_kept;
-    sum.cost_m += share * trial->cost_m;
-    sum.travel_m += share * trial->travel_m;
-    sum.rotation_rad += share * trial->rotation_rad;
-    sum.actions += share * trial->actions;
     sum.contacts += share * trial->contacts;
-    sum.planner_calls += share * (double)trial->planner_calls;
-    sum.planning_s += share * trial->planning_s;
     sum.expansions += share * (double)trial->expansions;
+    add_effort(&sum.mean, &trial->whole, share);
   }
   return sum;
 }

@@ -16,35 +16,55 @@ typedef enum {
   trial_at_limit_of_actions,
   trial_at_limit_of_travel,
   trial_at_limit_of_time,
+  trial_at_hand_over,      /* and was to go no further */
+  trial_without_hand_over, /* with which it was to begin */
   trial_end_count
 } trial_end;
 
 const char* trial_end_name(trial_end end); /* for a person */
+
+/* A trial, or what of it came before and after poses took over from voxels: the hand-over. */
+typedef enum { phase_whole, phase_voxels, phase_poses, phase_count } trial_phase;
+
+const char* trial_phase_name(trial_phase phase); /* as options and results have it */
+
+/* What adds up in a trial. NAN where it does not apply. */
+typedef struct {
+  double cost_m;       /* with the scenario's weights */
+  double travel_m;     /* of the tool frame, retreats included */
+  double rotation_rad; /* of the tool frame */
+  double actions;
+  double planner_calls; /* queries that planned */
+  double planning_s;    /* what these took */
+} effort;
+
+void add_effort(effort* sum, const effort* other, double times);
 
 /* How one trial went. NAN where a number does not apply. */
 typedef struct {
   uint64_t seed;
   double true_pose[7];
   bool inserted;
-  bool truth_kept;     /* the belief never lost the true pose */
-  double cost_m;       /* with the scenario's weights */
-  double travel_m;     /* of the tool frame, retreats included */
-  double rotation_rad; /* of the tool frame */
-  int actions;
+  bool truth_kept; /* the belief never lost the true pose */
+  effort whole;
+  effort voxels; /* of this, up to the hand-over */
   int contacts;
-  uint64_t planner_calls;  /* queries that planned */
-  double planning_s;       /* what these took */
-  uint64_t expansions;     /* beliefs expanded in them */
-  double phase1_cost_m;    /* the cost at which poses took over from voxels */
+  uint64_t expansions;     /* beliefs expanded */
   double position_error_m; /* of the belief's mean */
   double angle_error_rad;
   trial_end ended;
 } trial_result;
 
+/* What a phase took. False if the trial did not get to its end. */
+bool effort_of_phase(const trial_result* trial, trial_phase phase, effort* taken);
+
+enum { solvers_room = 256 };
+
 /* What all trials of a run have in common: trials of two runs may be put together if this is the same. NAN where an
  * option leaves it to the scenario, or nothing is limited. */
 typedef struct {
-  char scenario[256], solver[32], belief[32];
+  char scenario[256], belief[32], phase[32];
+  char solver[solvers_room]; /* or several, with commas */
   double budget_seconds;
   uint64_t budget_expansions;
   double true_pose[6]; /* x y z roll pitch yaw, if it is not drawn */
@@ -58,13 +78,14 @@ typedef struct {
   int count, room;
 } run_result;
 
-bool has_trial(const run_result* run, uint64_t seed);
-bool add_trial(run_result* run, const trial_result* trial); /* false if out of memory */
+const trial_result* find_trial(const run_result* run, uint64_t seed); /* NULL if there is none */
+bool add_trial(run_result* run, const trial_result* trial);           /* false if out of memory */
 
 /* How many trials there are, were inserted, kept the truth; and means over all of them. */
 typedef struct {
   int trials, inserted, truth_kept;
-  double cost_m, travel_m, rotation_rad, actions, contacts, planner_calls, planning_s, expansions;
+  effort mean;
+  double contacts, expansions;
 } run_summary;
 
 run_summary summarise(const run_result* run);

@@ -13,6 +13,10 @@ static const json_member names[] = {
     {"belief", member_text, offsetof(run_setting, belief), sizeof((run_setting*)0)->belief},
 };
 
+static const json_member phase[] = {
+    {"phase", member_text, offsetof(run_setting, phase), sizeof((run_setting*)0)->phase},
+};
+
 static const json_member options[] = {
     {"budget_seconds", member_double, offsetof(run_setting, budget_seconds), 0},
     {"budget_expansions", member_whole, offsetof(run_setting, budget_expansions), 0},
@@ -28,39 +32,50 @@ static const json_member of_trial[] = {
     {"true_pose", member_doubles, offsetof(trial_result, true_pose), 7},
     {"inserted", member_bool, offsetof(trial_result, inserted), 0},
     {"truth_kept", member_bool, offsetof(trial_result, truth_kept), 0},
-    {"cost_m", member_double, offsetof(trial_result, cost_m), 0},
-    {"travel_m", member_double, offsetof(trial_result, travel_m), 0},
-    {"rotation_rad", member_double, offsetof(trial_result, rotation_rad), 0},
-    {"actions", member_int, offsetof(trial_result, actions), 0},
+    {"cost_m", member_double, offsetof(trial_result, whole.cost_m), 0},
+    {"travel_m", member_double, offsetof(trial_result, whole.travel_m), 0},
+    {"rotation_rad", member_double, offsetof(trial_result, whole.rotation_rad), 0},
+    {"actions", member_count, offsetof(trial_result, whole.actions), 0},
     {"contacts", member_int, offsetof(trial_result, contacts), 0},
-    {"planner_calls", member_whole, offsetof(trial_result, planner_calls), 0},
-    {"planning_s", member_double, offsetof(trial_result, planning_s), 0},
-    {"phase1_cost_m", member_double, offsetof(trial_result, phase1_cost_m), 0},
+    {"planner_calls", member_count, offsetof(trial_result, whole.planner_calls), 0},
+    {"planning_s", member_double, offsetof(trial_result, whole.planning_s), 0},
+    {"phase1_cost_m", member_double, offsetof(trial_result, voxels.cost_m), 0},
     {"position_error_m", member_double, offsetof(trial_result, position_error_m), 0},
     {"angle_error_rad", member_double, offsetof(trial_result, angle_error_rad), 0},
+    {"phase1_travel_m", member_double, offsetof(trial_result, voxels.travel_m), 0},
+    {"phase1_rotation_rad", member_double, offsetof(trial_result, voxels.rotation_rad), 0},
+    {"phase1_actions", member_count, offsetof(trial_result, voxels.actions), 0},
+    {"phase1_planner_calls", member_count, offsetof(trial_result, voxels.planner_calls), 0},
+    {"phase1_planning_s", member_double, offsetof(trial_result, voxels.planning_s), 0},
 };
 
 static const json_member of_summary[] = {
     {"trials", member_int, offsetof(run_summary, trials), 0},
     {"inserted", member_int, offsetof(run_summary, inserted), 0},
     {"truth_kept", member_int, offsetof(run_summary, truth_kept), 0},
-    {"mean_cost_m", member_double, offsetof(run_summary, cost_m), 0},
-    {"mean_travel_m", member_double, offsetof(run_summary, travel_m), 0},
-    {"mean_rotation_rad", member_double, offsetof(run_summary, rotation_rad), 0},
-    {"mean_actions", member_double, offsetof(run_summary, actions), 0},
+    {"mean_cost_m", member_double, offsetof(run_summary, mean.cost_m), 0},
+    {"mean_travel_m", member_double, offsetof(run_summary, mean.travel_m), 0},
+    {"mean_rotation_rad", member_double, offsetof(run_summary, mean.rotation_rad), 0},
+    {"mean_actions", member_double, offsetof(run_summary, mean.actions), 0},
     {"mean_contacts", member_double, offsetof(run_summary, contacts), 0},
-    {"mean_planner_calls", member_double, offsetof(run_summary, planner_calls), 0},
-    {"mean_planning_s", member_double, offsetof(run_summary, planning_s), 0},
+    {"mean_planner_calls", member_double, offsetof(run_summary, mean.planner_calls), 0},
+    {"mean_planning_s", member_double, offsetof(run_summary, mean.planning_s), 0},
     {"mean_expansions", member_double, offsetof(run_summary, expansions), 0},
 };
 
 /* --- writing */
 
+void print_trial(FILE* out, const trial_result* trial) { json_members(out, trial, of_trial, COUNT(of_trial), ", "); }
+
+void print_trial_end(FILE* out, const trial_result* trial) { json_text(out, trial_end_name(trial->ended)); }
+
+void print_options(FILE* out, const run_setting* setting) { json_members(out, setting, options, COUNT(options), ", "); }
+
 static void print_trials(FILE* out, const run_result* run) {
   fputs("  \"trials\": [", out);
   for (int i = 0; i < run->count; ++i) {
     fputs(i > 0 ? ",\n    {" : "\n    {", out);
-    json_members(out, &run->trials[i], of_trial, COUNT(of_trial), ", ");
+    print_trial(out, &run->trials[i]);
     fputc('}', out);
   }
   fputs("\n  ],\n", out);
@@ -72,18 +87,19 @@ static void print_summary(FILE* out, const run_result* run) {
   fputs("  \"summary\": {", out);
   json_members(out, &summary, of_summary, COUNT(of_summary), ", ");
   fputs(",\n    \"options\": {", out);
-  json_members(out, &run->setting, options, COUNT(options), ", ");
+  print_options(out, &run->setting);
   fputs("},\n    \"expansions\": [", out);
   for (int i = 0; i < run->count; ++i) fprintf(out, "%s%" PRIu64, i > 0 ? ", " : "", run->trials[i].expansions);
   fputs("],\n    \"ended\": [", out);
   for (int i = 0; i < run->count; ++i) {
     if (i > 0) fputs(", ", out);
-    json_text(out, trial_end_name(run->trials[i].ended));
+    print_trial_end(out, &run->trials[i]);
   }
   fputs("]}\n", out);
 }
 
-void print_json(FILE* out, const run_result* run) {
+static void print_run(FILE* out, const void* results) {
+  const run_result* run = results;
   fputs("{\n  ", out);
   json_members(out, &run->setting, names, COUNT(names), ",\n  ");
   fputs(",\n", out);
@@ -94,30 +110,42 @@ void print_json(FILE* out, const run_result* run) {
 
 /* --- reading */
 
-static bool read_trial(json_reader* reader, run_result* run) {
-  trial_result trial;
-  memset(&trial, 0, sizeof trial);
-  if (!json_expect(reader, "{") || !json_read_members(reader, &trial, of_trial, COUNT(of_trial))) return false;
-  if (run->count > 0 && trial.seed <= run->trials[run->count - 1].seed)
+bool read_trial(json_reader* reader, trial_result* trial) {
+  memset(trial, 0, sizeof *trial);
+  return json_read_members(reader, trial, of_trial, COUNT(of_trial));
+}
+
+bool read_trial_end(json_reader* reader, trial_result* trial) {
+  char name[32];
+  if (!json_read_text(reader, name, sizeof name)) return false;
+  for (trial->ended = trial_at_goal; trial->ended < trial_end_count; ++trial->ended)
+    if (strcmp(name, trial_end_name(trial->ended)) == 0) return true;
+  return json_complain(reader, "a way in which a trial ends before this");
+}
+
+bool read_options(json_reader* reader, run_setting* setting) {
+  return json_read_members(reader, setting, options, COUNT(options));
+}
+
+bool take_trial(json_reader* reader, const trial_result* trial, run_result* run) {
+  if (run->count > 0 && trial->seed <= run->trials[run->count - 1].seed)
     return json_complain(reader, "trials in the order of their seeds, each once");
-  return json_expect(reader, "}") && (add_trial(run, &trial) || json_complain(reader, "room for one more trial"));
+  return add_trial(run, trial) || json_complain(reader, "room for one more trial");
+}
+
+static bool read_one_trial(json_reader* reader, run_result* run) {
+  trial_result trial;
+  return json_expect(reader, "{") && read_trial(reader, &trial) && take_trial(reader, &trial, run) &&
+         json_expect(reader, "}");
 }
 
 static bool read_trials(json_reader* reader, run_result* run) {
   if (!json_expect_key(reader, "trials") || !json_expect(reader, "[")) return false;
   if (json_next(reader, "]")) return true;
   do
-    if (!read_trial(reader, run)) return false;
+    if (!read_one_trial(reader, run)) return false;
   while (json_next(reader, ","));
   return json_expect(reader, "]");
-}
-
-static bool read_ended(json_reader* reader, trial_result* trial) {
-  char name[32];
-  if (!json_read_text(reader, name, sizeof name)) return false;
-  for (trial->ended = trial_at_goal; trial->ended < trial_end_count; ++trial->ended)
-    if (strcmp(name, trial_end_name(trial->ended)) == 0) return true;
-  return json_complain(reader, "a way in which a trial ends before this");
 }
 
 static bool read_expansions(json_reader* reader, trial_result* trial) {
@@ -137,17 +165,20 @@ static bool read_summary(json_reader* reader, run_result* run) {
   run_summary summary;
   return json_expect_key(reader, "summary") && json_expect(reader, "{") &&
          json_read_members(reader, &summary, of_summary, COUNT(of_summary)) && json_expect(reader, ",") &&
-         json_expect_key(reader, "options") && json_expect(reader, "{") &&
-         json_read_members(reader, &run->setting, options, COUNT(options)) && json_expect(reader, "}") &&
-         read_for_each(reader, "expansions", read_expansions, run) && read_for_each(reader, "ended", read_ended, run) &&
-         json_expect(reader, "}");
+         json_expect_key(reader, "options") && json_expect(reader, "{") && read_options(reader, &run->setting) &&
+         json_expect(reader, "}") && read_for_each(reader, "expansions", read_expansions, run) &&
+         read_for_each(reader, "ended", read_trial_end, run) && json_expect(reader, "}");
 }
 
-bool read_json(json_reader* reader, run_result* run) {
+static bool read_run(json_reader* reader, void* results) {
+  run_result* run = results;
+  snprintf(run->setting.phase, sizeof run->setting.phase, "%s", trial_phase_name(phase_whole));
   return json_expect(reader, "{") && json_read_members(reader, &run->setting, names, COUNT(names)) &&
          json_expect(reader, ",") && read_trials(reader, run) && json_expect(reader, ",") &&
-         read_summary(reader, run) && json_expect(reader, "}") && json_expect_end(reader);
+         read_summary(reader, run) && json_expect(reader, "}");
 }
+
+const results_format run_format = {print_run, read_run};
 
 /* --- comparing */
 
@@ -176,5 +207,6 @@ static bool same_members(const run_setting* found, const run_setting* expected, 
 
 bool same_setting(const run_setting* found, const run_setting* expected, setting_difference* difference) {
   return same_members(found, expected, names, COUNT(names), difference) &&
+         same_members(found, expected, phase, COUNT(phase), difference) &&
          same_members(found, expected, options, COUNT(options), difference);
 }

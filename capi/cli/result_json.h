@@ -2,13 +2,22 @@
 #ifndef TACTUS_CLI_RESULT_JSON_H
 #define TACTUS_CLI_RESULT_JSON_H
 
-#include "json_reader.h"
-#include "result.h"
+#include "results_file.h"
 
-void print_json(FILE* out, const run_result* run);
+/* The results of `tactus run`, a run_result; its numbers come back with nine digits. */
+extern const results_format run_format;
 
-/* Reads what `print_json` wrote into an empty `run`; its numbers come back with nine digits. */
-bool read_json(json_reader* reader, run_result* run);
+/* The members of a trial, and the options that a setting has beside its names; no braces. A function that returns false
+ * has said why. */
+void print_trial(FILE* out, const trial_result* trial);
+bool read_trial(json_reader* reader, trial_result* trial);
+void print_trial_end(FILE* out, const trial_result* trial);
+bool read_trial_end(json_reader* reader, trial_result* trial);
+void print_options(FILE* out, const run_setting* setting);
+bool read_options(json_reader* reader, run_setting* setting);
+
+/* Adds a trial that was read to those before it. */
+bool take_trial(json_reader* reader, const trial_result* trial, run_result* run);
 
 /* Whether two runs have the same setting, to the digits of the JSON. If not, the first thing that differs: its name as
  * an option has it, and both values. */

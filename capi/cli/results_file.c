@@ -10,35 +10,62 @@
 
 #include "result_json.h"
 
+bool is_stdout(const char* path) { return path != NULL && strcmp(path, "-") == 0; }
+
 bool is_replaceable(const char* path) {
   struct stat facts;
-  return strcmp(path, "-") != 0 && (stat(path, &facts) != 0 || S_ISREG(facts.st_mode));
+  return !is_stdout(path) && (stat(path, &facts) != 0 || S_ISREG(facts.st_mode));
+}
+
+static bool failed(const char* path, const char* what) {
+  fprintf(stderr, "tactus: %s: %s: %s\n", path, what, strerror(errno));
+  return false;
 }
 
 /* --- saving */
 
-static bool failed(const char* path, const char* what) {
-  fprintf(stderr, "tactus run: %s: %s: %s\n", path, what, strerror(errno));
-  return false;
-}
-
-static bool write_results(const char* path, const run_result* run) {
+static bool write_beside(const char* path, const results_file* file) {
   FILE* out = fopen(path, "w");
   if (out == NULL) return failed(path, "could not be created");
-  print_json(out, run);
+  file->format->print(out, file->results);
   const bool written = fflush(out) == 0 && !ferror(out) && fsync(fileno(out)) == 0;
   const bool closed = fclose(out) == 0;
   return (written && closed) || failed(path, "could not be written");
 }
 
-bool save_results(const char* path, const run_result* run) {
+static bool replace(const results_file* file) {
   static const char ending[] = ".new";
-  char* beside = malloc(strlen(path) + sizeof ending);
-  if (beside == NULL) return failed(path, "could not be saved");
-  strcat(strcpy(beside, path), ending);
-  const bool saved = write_results(beside, run) && (rename(beside, path) == 0 || failed(path, "could not be replaced"));
+  char* beside = malloc(strlen(file->path) + sizeof ending);
+  if (beside == NULL) return failed(file->path, "could not be saved");
+  strcat(strcpy(beside, file->path), ending);
+  const bool saved =
+      write_beside(beside, file) && (rename(beside, file->path) == 0 || failed(file->path, "could not be replaced"));
   free(beside);
   return saved;
+}
+
+bool save_results(const results_file* file) {
+  return file->path == NULL || !is_replaceable(file->path) || replace(file);
+}
+
+FILE* open_for_writing(const char* path) {
+  FILE* file = is_stdout(path) ? stdout : fopen(path, "w");
+  if (file == NULL) fprintf(stderr, "tactus: %s: found a file that can't be written\n", path);
+  return file;
+}
+
+bool close_written(FILE* file) {
+  if (file == NULL || (file == stdout ? fflush(file) : fclose(file)) == 0) return true;
+  fputs("tactus: could not write all of the results\n", stderr);
+  return false;
+}
+
+bool write_at_end(const results_file* file) {
+  if (file->path == NULL || is_replaceable(file->path)) return true;
+  FILE* out = open_for_writing(file->path);
+  if (out == NULL) return false;
+  file->format->print(out, file->results);
+  return close_written(out);
 }
 
 /* --- reading */
@@ -57,18 +84,18 @@ static char* read_all(FILE* in) {
   return text;
 }
 
-static bool read_results(const char* path, const char* text, run_result* run) {
-  json_reader reader = {path, text, text};
-  if (read_json(&reader, run)) return true;
-  fprintf(stderr, "tactus run: %s: not whole, left as it is; mend it, or write to another file\n", path);
+static bool read_results(const results_file* file, const char* text) {
+  json_reader reader = {file->path, text, text};
+  if (file->format->read(&reader, file->results) && json_expect_end(&reader)) return true;
+  fprintf(stderr, "tactus: %s: not whole, left as it is; mend it, or write to another file\n", file->path);
   return false;
 }
 
-bool load_results(const char* path, run_result* run) {
-  FILE* in = fopen(path, "r");
-  if (in == NULL) return errno == ENOENT || failed(path, "could not be opened");
+bool load_results(const results_file* file) {
+  FILE* in = fopen(file->path, "r");
+  if (in == NULL) return errno == ENOENT || failed(file->path, "could not be opened");
   char* text = read_all(in);
-  const bool loaded = text != NULL ? read_results(path, text, run) : failed(path, "could not be read");
+  const bool loaded = text != NULL ? read_results(file, text) : failed(file->path, "could not be read");
   free(text);
   fclose(in);
   return loaded;
@@ -76,26 +103,25 @@ bool load_results(const char* path, run_result* run) {
 
 /* --- taking over */
 
-static bool seeds_belong(const char* path, const run_result* run, uint64_t first, int count) {
+bool settings_agree(const char* path, const run_setting* found, const run_setting* expected) {
+  setting_difference difference;
+  if (same_setting(found, expected, &difference)) return true;
+  fprintf(stderr,
+          "tactus: %s: found trials with %s %s, expected %s as asked for now; ask for the same to go on with them, "
+          "or write to another file\n",
+          path, difference.name, difference.found, difference.expected);
+  return false;
+}
+
+bool seeds_belong(const char* path, const run_result* run, uint64_t first, int count) {
   for (int i = 0; i < run->count; ++i) {
     const uint64_t seed = run->trials[i].seed;
     if (seed - first < (uint64_t)count) continue;
     fprintf(stderr,
-            "tactus run: %s: found a trial of seed %" PRIu64 ", expected %d seeds from %" PRIu64
+            "tactus: %s: found a trial of seed %" PRIu64 ", expected %d seeds from %" PRIu64
             " on; ask for it too, or write to another file\n",
             path, seed, count, first);
     return false;
   }
   return true;
-}
-
-bool trials_belong(const char* path, const run_result* run, const run_setting* setting, uint64_t first, int count) {
-  setting_difference difference;
-  if (run->count == 0) return true;
-  if (same_setting(&run->setting, setting, &difference)) return seeds_belong(path, run, first, count);
-  fprintf(stderr,
-          "tactus run: %s: found trials with %s %s, expected %s as asked for now; ask for the same to go on with them, "
-          "or write to another file\n",
-          path, difference.name, difference.found, difference.expected);
-  return false;
 }

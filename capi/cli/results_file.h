@@ -2,20 +2,44 @@
 #ifndef TACTUS_CLI_RESULTS_FILE_H
 #define TACTUS_CLI_RESULTS_FILE_H
 
+#include "json_reader.h"
 #include "result.h"
 
-/* The results of a run in a file that is whole at every moment. False: stderr says why. */
+/* Results in a file that is whole at every moment. False: stderr says why. */
+
+/* How a command writes its results, and reads them back into empty ones. */
+typedef struct {
+  void (*print)(FILE* out, const void* results);
+  bool (*read)(json_reader* reader, void* results);
+} results_format;
+
+typedef struct {
+  const char* path; /* NULL: nowhere */
+  const results_format* format;
+  void* results;
+} results_file;
 
 /* Whether there is a file at `path` that can be replaced, or none: not a pipe, a device or "-" for stdout. */
 bool is_replaceable(const char* path);
 
-/* Puts the results in the place of what the file holds, at once: they are first written beside it. */
-bool save_results(const char* path, const run_result* run);
+/* Puts the results in the place of what the file holds, at once: they are first written beside it. What can't be
+ * replaced is left for the end. */
+bool save_results(const results_file* file);
 
-/* Reads a file that may be there into an empty `run`. */
-bool load_results(const char* path, run_result* run);
+/* Into what can't be replaced, such as stdout. */
+bool write_at_end(const results_file* file);
 
-/* Whether what was loaded from `path` is part of a run of this setting with `count` seeds from `first` on. */
-bool trials_belong(const char* path, const run_result* run, const run_setting* setting, uint64_t first, int count);
+/* Reads a file that may be there. */
+bool load_results(const results_file* file);
+
+bool is_stdout(const char* path);
+
+/* NULL if it can't be. */
+FILE* open_for_writing(const char* path);
+bool close_written(FILE* file); /* NULL is legal */
+
+/* Whether what was loaded from `path` has this setting; or, of a run, is of `count` seeds from `first` on. */
+bool settings_agree(const char* path, const run_setting* found, const run_setting* expected);
+bool seeds_belong(const char* path, const run_result* run, uint64_t first, int count);
 
 #endif

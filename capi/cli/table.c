@@ -13,17 +13,18 @@ void print_table(FILE* out, const run_result* run) {
           "ended");
   for (int i = 0; i < run->count; ++i) {
     const trial_result* t = &run->trials[i];
-    fprintf(out, "%8" PRIu64 "  %-8s  %-5s  %7.3f  %8.3f  %8.3f  %7d  %8d  %5" PRIu64 "  %10.2f  %8.2f  %9.2f  %s\n",
-            t->seed, t->inserted ? "yes" : "no", t->truth_kept ? "kept" : "lost", t->cost_m, t->travel_m,
-            t->rotation_rad, t->actions, t->contacts, t->planner_calls, t->planning_s, 1000.0 * t->position_error_m,
-            degrees * t->angle_error_rad, trial_end_name(t->ended));
+    fprintf(out, "%8" PRIu64 "  %-8s  %-5s  %7.3f  %8.3f  %8.3f  %7.0f  %8d  %5.0f  %10.2f  %8.2f  %9.2f  %s\n",
+            t->seed, t->inserted ? "yes" : "no", t->truth_kept ? "kept" : "lost", t->whole.cost_m, t->whole.travel_m,
+            t->whole.rotation_rad, t->whole.actions, t->contacts, t->whole.planner_calls, t->whole.planning_s,
+            1000.0 * t->position_error_m, degrees * t->angle_error_rad, trial_end_name(t->ended));
   }
-  const run_summary mean = summarise(run);
-  fprintf(out, "\ninserted %d of %d, true pose kept in %d of %d\n", mean.inserted, run->count, mean.truth_kept,
+  const run_summary summary = summarise(run);
+  const effort* mean = &summary.mean;
+  fprintf(out, "\ninserted %d of %d, true pose kept in %d of %d\n", summary.inserted, run->count, summary.truth_kept,
           run->count);
   fprintf(out,
           "on average: cost %.3f m, travel %.3f m, %.1f actions, %.1f contacts, %.2f s of planning in %.1f calls, %.1f "
           "beliefs expanded a second\n",
-          mean.cost_m, mean.travel_m, mean.actions, mean.contacts, mean.planning_s, mean.planner_calls,
-          mean.planning_s > 0.0 ? mean.expansions / mean.planning_s : 0.0);
+          mean->cost_m, mean->travel_m, mean->actions, summary.contacts, mean->planning_s, mean->planner_calls,
+          mean->planning_s > 0.0 ? summary.expansions / mean->planning_s : 0.0);
 }

@@ -13,7 +13,11 @@ using support::Error;
 using support::Status;
 
 constexpr std::size_t least_trial = 24;     // projections after which it is asked whether they pay:
-constexpr std::size_t pays_from = 12;       // one in so many is exact
+constexpr std::size_t pays_from = 3;        // one in so many is exact
+constexpr double least_near = 0.001;        // m by which a pose may miss the history and serve for planning
+constexpr double near_share = 0.15;         // of a cell's radius by which it may
+constexpr double part_radius = 0.0015;      // m, of parts of cells from which poses are looked for else
+constexpr double least_step = -6.0;         // log2 of how much of a cell's width
 constexpr std::size_t least_share = 3;      // of the poses wanted: so many are made up from others
 constexpr double fine_radius = 0.0004;      // m, of cells any pose of which comes near enough as it is
 constexpr std::size_t unproved_share = 8;   // of them anywhere in a cell, for what no other speaks for
@@ -181,29 +185,30 @@ struct Belief::Drawn {
   void add(const std::optional<Projection>& projection) {
     if (projection) (projection->exact ? exact : near).push_back(projection->pose);
   }
+  std::size_t size() const { return exact.size() + near.size(); }
+  const PoseVector& any(support::Rng& rng) const {
+    const std::size_t i = rng.below(size());
+    return i < exact.size() ? exact[i] : near[i - exact.size()];
+  }
 };
 
-/// Poses brought into agreement with the history from anywhere in the cells: up to `count` tries, fewer if it does not
-/// pay.
-Belief::Drawn Belief::draw_afresh(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const {
-  Drawn drawn;
-  for (std::size_t tried = 0; tried < count && deadline.used_fraction() < 0.5; ++tried) {
-    if (tried >= least_trial && drawn.exact.size() * pays_from < tried) break;
-    const Cell cell = cells_->draw_cell(rng);
-    const PoseVector seed = cells_->draw_in(cell, rng);
-    if (cells_->radius(cell) > fine_radius)
-      drawn.add(projected(task(), history_, seed));
-    else
-      drawn.add(Projection{seed, reproduces(task(), history_, geometry::pose_from(seed))});
-  }
-  return drawn;
+/// A pose from a cell, brought into agreement with the history.
+std::optional<Projection> Belief::agreeing(const Cell& cell, support::Rng& rng) const {
+  const PoseVector seed = cells_->draw_in(cell, rng);
+  if (cells_->radius(cell) > fine_radius) return agreeing(seed);
+  return Projection{seed, reproduces(task(), history_, geometry::pose_from(seed))};
 }
 
-/// A pose about a cell's width from another.
+/// Where cells are coarse, so is what counts as near.
+std::optional<Projection> Belief::agreeing(const PoseVector& seed) const {
+  return projected(task(), history_, seed, std::max(least_near, near_share * cells_->coarsest()));
+}
+
+/// A pose up to a cell's width off another, and mostly much less.
 PoseVector Belief::beside(const PoseVector& from, support::Rng& rng) const {
   const Cell cell = cells_->draw_cell(rng);
   const PoseVector inside = cells_->draw_in(cell, rng);
-  const double size = rng.uniform(0.0, 2.0);
+  const double size = std::exp2(rng.uniform(least_step, 1.0));
   PoseVector seed = from;
   for (int d = 0; d < 6; ++d) seed[d] += size * (inside[d] - cell.centre[d]);
   return seed;
@@ -211,22 +216,26 @@ PoseVector Belief::beside(const PoseVector& from, support::Rng& rng) const {
 
 std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known,
                                const support::Deadline& deadline) const {
-  Drawn drawn = draw_afresh(count, rng, deadline);
-  const bool is_hard = drawn.exact.size() < count / least_share;
-  for (const Pose& pose : known) {
-    if (drawn.exact.size() + drawn.near.size() + count / unproved_share >= count || deadline.used_fraction() >= 0.5)
-      break;
-    drawn.add(projected(task(), history_, geometry::pose_vector(pose)));
+  Drawn drawn;
+  for (std::size_t tried = 0; tried < count && deadline.used_fraction() < 0.5; ++tried) {
+    if (tried >= least_trial && drawn.exact.size() * pays_from < tried) break;
+    drawn.add(agreeing(cells_->draw_cell(rng), rng));
   }
   const std::size_t least = count / least_share;
-  for (std::size_t tried = 0; tried < least && drawn.exact.size() < least && deadline.used_fraction() < 0.5; ++tried) {
-    const std::vector<PoseVector>& found = drawn.exact.empty() ? drawn.near : drawn.exact;
-    if (found.empty()) break;
-    drawn.add(projected(task(), history_, beside(found[rng.below(found.size())], rng)));
-  }
+  const bool is_hard = drawn.exact.size() < least;
+  const auto lacks = [&](std::size_t wanted) {
+    return is_hard && drawn.size() < wanted && deadline.used_fraction() < 0.5;
+  };
+  for (std::size_t i = 0; i < known.size() && lacks(count - least); ++i)
+    drawn.add(agreeing(geometry::pose_vector(known[i])));
+  if (lacks(count))
+    for (const Cell& part : cells_->draw_parts(task(), history_, count, part_radius, rng, deadline))
+      if (lacks(count)) drawn.add(agreeing(part, rng));
+  for (std::size_t tried = 0; tried < count && lacks(least) && drawn.size() > 0; ++tried)
+    drawn.add(agreeing(beside(drawn.any(rng), rng)));
   std::vector<Pose> poses;
   for (const PoseVector& v : drawn.exact) poses.push_back(geometry::pose_from(v));
-  for (std::size_t i = 0; i < drawn.near.size() && poses.size() < least; ++i)
+  for (std::size_t i = 0; i < drawn.near.size() && poses.size() < count; ++i)
     if (const Pose pose = geometry::pose_from(drawn.near[i]); contains(pose)) poses.push_back(pose);
   for (std::size_t i = 0; (is_hard && i < count / unproved_share) || poses.size() < least; ++i)
     poses.push_back(geometry::pose_from(cells_->draw_in(cells_->draw_cell(rng), rng)));

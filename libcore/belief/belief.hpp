@@ -112,7 +112,8 @@ class Belief {
   Belief doubting(const std::vector<std::size_t>& traces) const;
   std::optional<Belief> best_explanation(const std::vector<std::vector<std::size_t>>& ways) const;
   struct Drawn;
-  Drawn draw_afresh(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const;
+  std::optional<Projection> agreeing(const Cell& cell, support::Rng& rng) const;
+  std::optional<Projection> agreeing(const PoseVector& seed) const;
   PoseVector beside(const PoseVector& from, support::Rng& rng) const;
   void doubt();
 

@@ -52,6 +52,13 @@ PoseVector CellBelief::half_width(const Cell& cell) const {
 
 double CellBelief::radius(const Cell& cell) const { return scene::cell_radius(half_width(cell), reach_); }
 
+double CellBelief::coarsest() const {
+  if (grid_) return radius(Cell{});
+  double most = 0.0;
+  for (const Cell& cell : cells_) most = std::max(most, radius(cell));
+  return most;
+}
+
 double CellBelief::volume(const Cell& cell) const {
   double product = 1.0;
   for (const double half : half_width(cell)) product *= half > 0.0 ? 2.0 * half : 1.0;
@@ -171,21 +178,57 @@ PoseVector CellBelief::draw_in(const Cell& cell, support::Rng& rng) const {
   return v;
 }
 
+/// With the coarsest ones split, and the halves that can't have given the history left out.
+std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
+                                                 const std::vector<Cell>& cells) const {
+  double coarsest = 0.0;
+  for (const Cell& cell : cells) coarsest = std::max(coarsest, radius(cell));
+  std::vector<Cell> candidates, kept;
+  for (const Cell& cell : cells) {
+    if (radius(cell) > 0.8 * coarsest && may_split(cell))
+      split(cell, candidates);
+    else
+      kept.push_back(cell);
+  }
+  for (Cell& cell : candidates)
+    if (may_reproduce(task, history, cell)) kept.push_back(cell);
+  return kept;
+}
+
+/// `count` of them, each by its weight, at even steps from a first one by lot.
+std::vector<Cell> CellBelief::thinned(const std::vector<Cell>& cells, std::size_t count, support::Rng& rng) const {
+  double total = 0.0;
+  for (const Cell& cell : cells) total += weight(cell);
+  const double step = total / static_cast<double>(count);
+  double next = step * rng.uniform();
+  std::vector<Cell> kept;
+  double passed = 0.0;
+  for (const Cell& cell : cells)
+    for (passed += weight(cell); next < passed; next += step) kept.push_back(cell);
+  return kept;
+}
+
+std::vector<Cell> CellBelief::draw_parts(const Task& task, const std::vector<Trace>& history, std::size_t count,
+                                         double wanted, support::Rng& rng, const support::Deadline& deadline) const {
+  std::vector<Cell> parts;
+  if (size() <= count)
+    parts = cells();
+  else
+    while (parts.size() < count) parts.push_back(draw_cell(rng));
+  const auto is_coarse = [&](const Cell& part) { return radius(part) > wanted; };
+  while (std::any_of(parts.begin(), parts.end(), is_coarse) && deadline.used_fraction() < 0.5) {
+    parts = halves_of_coarsest(task, history, parts);
+    if (parts.size() > 2 * count) parts = thinned(parts, count, rng);
+  }
+  return parts;
+}
+
 bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
                         const std::function<bool(const CellBelief&)>& enough) {
-  while (!grid_ && 2 * cells_.size() <= options_.most && !(enough && enough(*this))) {
-    double coarsest = 0.0;
-    for (const Cell& cell : cells_) coarsest = std::max(coarsest, radius(cell));
-    if (coarsest <= options_.finest_radius) break;
-    std::vector<Cell> candidates, kept;
-    for (const Cell& cell : cells_) {
-      if (radius(cell) > 0.8 * coarsest && may_split(cell))
-        split(cell, candidates);
-      else
-        kept.push_back(cell);
-    }
-    for (Cell& cell : candidates)
-      if (may_reproduce(task, history, cell)) kept.push_back(cell);
+  const auto is_coarse = [this](const Cell& cell) { return may_split(cell); };
+  while (!grid_ && 2 * cells_.size() <= options_.most && !(enough && enough(*this)) &&
+         std::any_of(cells_.begin(), cells_.end(), is_coarse)) {
+    std::vector<Cell> kept = halves_of_coarsest(task, history, cells_);
     if (kept.empty()) return false;
     cells_ = std::move(kept);
     weigh();

@@ -46,6 +46,7 @@ class CellBelief {
 
   PoseVector half_width(const Cell& cell) const;
   double radius(const Cell& cell) const;  ///< m that a point of the target may be off the cell's centre
+  double coarsest() const;                ///< radius of the coarsest cell, m
   double volume(const Cell& cell) const;  ///< product of the free dimensions' widths
   double volume() const;                  ///< of all cells
   double weight(const Cell& cell) const;  ///< volume times the prior's density at the centre
@@ -63,6 +64,12 @@ class CellBelief {
   Cell draw_cell(support::Rng& rng) const;  ///< by weight
   PoseVector draw_in(const Cell& cell, support::Rng& rng) const;
 
+  /// About `count` parts of cells, each of at most `radius` (m), drawn by weight from all the parts of that size that
+  /// may have given the history: cells are split, the parts tested, and again and again all but `count` of them left
+  /// out by lot. Empty if none was met. Stops early, with coarser parts, once half of a budget in seconds is used up.
+  std::vector<Cell> draw_parts(const Task& task, const std::vector<Trace>& history, std::size_t count, double radius,
+                               support::Rng& rng, const support::Deadline& deadline) const;
+
   const std::optional<CellGrid>& grid() const { return grid_; }  ///< none once the cells are a list
 
   /// From the members of a grid, or from a list. Throws nothing: what they are must have been checked.
@@ -72,7 +79,10 @@ class CellBelief {
  private:
   bool may_split(const Cell& cell) const { return radius(cell) > options_.finest_radius; }
   void split(const Cell& cell, std::vector<Cell>& halves) const;
+  std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
+                                       const std::vector<Cell>& cells) const;
   bool may_reproduce(const Task& task, const std::vector<Trace>& history, Cell& cell) const;
+  std::vector<Cell> thinned(const std::vector<Cell>& cells, std::size_t count, support::Rng& rng) const;
   void list_when_few();
   void weigh();
   Cell draw_weighed(support::Rng& rng) const;

@@ -6,11 +6,13 @@
 namespace tactus::belief {
 namespace {
 
-constexpr int steps = 8;
+constexpr int steps = 12;
 constexpr std::size_t looks = 3;          // at waypoints along a stretch that should be free
+constexpr double least_delay = 0.002;     // m by which a contact comes too early to be put off
 constexpr double close_enough = 0.00005;  // m
 constexpr double clear_by = 0.00005;      // m, where the robot was free
-constexpr double near = 0.001;            // m by which a demand may be missed
+constexpr int first_doubt = 3;            // step from which on the demands should get smaller
+constexpr double hopeless = 2.0;          // times the worst demand of the step before
 constexpr double damping = 1e-8;          // m^2
 constexpr double longest_shift = 0.02;    // m in one step
 
@@ -50,30 +52,65 @@ struct Demands {
   }
 };
 
-Demands demands_of(const Task& task, const std::vector<Trace>& history, const PoseVector& v) {
-  const contact::TargetContact& target = task.target_contact();
+/// Where a point of the tool at one waypoint is at another.
+Vector3 carried(const Trace& trace, std::size_t from, std::size_t to, const Vector3& base_point) {
+  return trace.bodies.base_from_body(to, 0) * (trace.bodies.base_from_body(from, 0).inverse() * base_point);
+}
+
+/// A contact that comes much too early, at `hit`: the target goes on by what the robot does from there to the stop.
+/// Moved the shortest way out instead, it would be passed at the side. False if that is not the case.
+bool add_delay(const Task& task, const Trace& trace, const Pose& base_from_target, std::size_t hit, Demands& demands) {
+  const contact::Nearest at_hit = task.target_contact().nearest(trace.bodies, hit, base_from_target);
+  const Vector3 there = base_from_target * at_hit.point;
+  const Vector3 way = carried(trace, hit, trace.bodies.size() - 1, there) - there;
+  const double length = way.norm();
+  if (length < least_delay) return false;
+  Row row = Row::Zero();
+  for (int d = 0; d < 3; ++d)
+    if (task.scene().prior.width[d] > 0.0) row[d] = way[d] / length;
+  if (row.norm() < 0.5) return false;
+  demands.add(row, length);
+  return true;
+}
+
+/// In touch at the stop: hardly, or half as deep as it may be if the robot was free until just before.
+void add_touch(const Task& task, const Trace& trace, const PoseVector& v, const Pose& base_from_target, bool to_middle,
+               Demands& demands) {
+  const std::size_t last = trace.bodies.size() - 1;
+  const contact::Nearest at_stop = task.target_contact().nearest(trace.bodies, last, base_from_target);
+  if (at_stop.distance >= 1.0) return;
+  const Vector3 there = base_from_target * at_stop.point;
+  const Vector3 last_way = there - carried(trace, last, trace.touch - 1, there);
+  const double deepest = std::abs((base_from_target.linear() * at_stop.gradient).dot(last_way));
+  const double middle = 0.5 * std::min(deepest, task.options().stop_tolerance);
+  const double depth = to_middle ? std::max(close_enough, middle) : close_enough;
+  const double wanted = std::clamp(at_stop.distance, -depth - task.options().sensing.stopping_distance, -depth);
+  if (wanted != at_stop.distance)
+    demands.add(derivative(task, v, base_from_target, at_stop), wanted - at_stop.distance);
+}
+
+/// Out of the way where the robot was free, from `hit` on.
+void add_clearance(const Task& task, const Trace& trace, const PoseVector& v, const Pose& base_from_target,
+                   std::size_t hit, Demands& demands) {
+  const std::size_t stride = std::max<std::size_t>(1, (trace.touch - hit) / looks);
+  contact::Nearest deepest;
+  for (std::size_t i = hit; i < trace.touch; i += stride) {
+    const contact::Nearest at = task.target_contact().nearest(trace.bodies, i, base_from_target);
+    if (at.distance < deepest.distance) deepest = at;
+  }
+  demands.add(derivative(task, v, base_from_target, deepest), clear_by - deepest.distance);
+}
+
+Demands demands_of(const Task& task, const std::vector<Trace>& history, const PoseVector& v, bool to_middle) {
   const Pose pose = geometry::pose_from(v);
-  const double travelled_on = task.options().sensing.stopping_distance;
   Demands demands;
   for (const Trace& trace : history) {
     if (trace.doubted) continue;
-    const std::size_t last = trace.bodies.size() - 1;
-    if (trace.contact) {
-      const contact::Nearest at_stop = target.nearest(trace.bodies, last, pose);
-      const double wanted = std::clamp(at_stop.distance, -close_enough - travelled_on, -close_enough);
-      if (at_stop.distance < 1.0 && at_stop.distance != wanted)
-        demands.add(derivative(task, v, pose, at_stop), wanted - at_stop.distance);
-    }
-    const auto hit = target.first_within(trace.bodies, pose, 0.0, 0);
-    const std::size_t end = trace.touch;
-    if (!hit || *hit >= end) continue;
-    const std::size_t stride = std::max<std::size_t>(1, (end - *hit) / looks);
-    contact::Nearest deepest;
-    for (std::size_t i = *hit; i < end; i += stride) {
-      const contact::Nearest at = target.nearest(trace.bodies, i, pose);
-      if (at.distance < deepest.distance) deepest = at;
-    }
-    demands.add(derivative(task, v, pose, deepest), clear_by - deepest.distance);
+    const auto hit = task.target_contact().first_within(trace.bodies, pose, 0.0, 0);
+    const bool too_early = hit && *hit < trace.touch;
+    if (trace.contact && too_early && add_delay(task, trace, pose, *hit, demands)) continue;
+    if (trace.contact) add_touch(task, trace, v, pose, to_middle, demands);
+    if (too_early) add_clearance(task, trace, v, pose, *hit, demands);
   }
   return demands;
 }
@@ -109,14 +146,18 @@ PoseVector inside(const scene::Prior& prior, PoseVector v) {
 
 }  // namespace
 
-std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed) {
+std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed,
+                                    double near) {
   const double lever = 0.5 * geometry::diameter(task.scene().target.mesh);
   PoseVector at = inside(task.scene().prior, seed);
+  double before = 0.0;
   for (int step = 0; step < steps; ++step) {
     if (reproduces(task, history, geometry::pose_from(at))) return Projection{at, true};
-    const Demands demands = demands_of(task, history, at);
-    const bool is_last = step + 1 == steps;
-    if (is_last) return demands.largest() < near ? std::optional(Projection{at, false}) : std::nullopt;
+    const Demands demands = demands_of(task, history, at, step % 2 == 0);
+    const double worst = demands.largest();
+    if (step >= first_doubt && worst > hopeless * before) break;
+    if (step + 1 == steps && worst < near) return Projection{at, false};
+    before = worst;
     at = inside(task.scene().prior, moved(at, demands, lever));
   }
   return std::nullopt;

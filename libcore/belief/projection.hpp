@@ -12,12 +12,13 @@ using geometry::PoseVector;
 /// A pose brought towards agreement with a history.
 struct Projection {
   PoseVector pose{};
-  bool exact = false;  ///< it reproduces the whole history; else it comes within a millimetre of that
+  bool exact = false;  ///< it reproduces the whole history; else it comes near that
 };
 
 /// A pose near `seed`, inside the prior: Gauss-Newton steps in the prior's free dimensions bring the target into touch
 /// with the robot at every recorded contact, and out of the way where it was free, until the pose reproduces the whole
-/// history or the steps are used up. None if it is still far from that then.
-std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed);
+/// history or the steps are used up. None if it is still off by more than `near` (m) then.
+std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed,
+                                    double near);
 
 }  // namespace tactus::belief

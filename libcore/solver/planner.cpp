@@ -198,7 +198,7 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   const Search& search = policy_->search;
   const std::vector<Choice>& choices = search.choices(node);
   std::vector<bool> banned(choices.size(), false);
-  if (standing_.stalls >= patience && belief.phase() == belief::Phase::poses)
+  if (standing_.stalls >= patience)
     for (std::size_t i = 0; i < choices.size(); ++i) banned[i] = !choices[i].motion->anchored;
   const auto next = [&] {
     const auto rule = greedy_of(options_.solver);

@@ -38,6 +38,16 @@ expect 2 'at least 0' run x.yaml --stopping-distance -0.001
 expect 2 'at least 0' run x.yaml --encoder-error inf
 expect 2 'from 0 to 0.5' run x.yaml --missed-contacts 0.6
 expect 2 'from 0 to 0.5' run x.yaml --false-contacts nan
+expect 2 'unknown option' run x.yaml --solvers rate,tbl
+expect 2 'SCENARIO' compare --solvers rate,tbl
+expect 2 'unknown option' compare x.yaml --solver rate
+expect 2 'unknown option' compare x.yaml --true-pose 0,0,0,0,0,0
+expect 2 'two or more' compare x.yaml
+expect 2 'two or more' compare x.yaml --solvers rate
+expect 2 'each solver once' compare x.yaml --solvers rate,tbl,rate
+expect 2 'whole, voxels or poses' compare x.yaml --solvers rate,tbl --phase late
+expect 2 'tactus compare: --resume: expected --json' compare x.yaml --solvers rate,tbl --resume
+expect 2 '/nowhere.yaml' compare /nowhere.yaml --solvers rate,tbl
 expect 2 '/nowhere.yaml' run /nowhere.yaml
 expect 2 '/nowhere.yaml' check /nowhere.yaml
 expect 2 'SCENARIO' export

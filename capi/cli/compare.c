@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include <string.h>
+
+#include "commands.h"
+#include "comparison.h"
+#include "comparison_json.h"
+#include "setup.h"
+#include "trials.h"
+
+typedef struct {
+  trial_options options;
+  loaded_setup setup;
+  trial_setup setups[most_solvers]; /* one a solver */
+  comparison comparison;
+} compare;
+
+static bool complain(const char* option, const char* found, const char* expected) {
+  fprintf(stderr, "tactus compare: %s: found '%s', expected %s\n", option, found, expected);
+  return false;
+}
+
+/* --- before the trials */
+
+static bool name_all(compare* c) {
+  const char* solvers = c->options.solvers != NULL ? c->options.solvers : "";
+  const char* expected = name_solvers(solvers, &c->comparison);
+  return expected == NULL || complain("--solvers", solvers, expected);
+}
+
+/* A planner is made at once, to hear of a solver that there is not before any trial. */
+static bool set_up_solver(const trial_setup* common, const char* name, trial_setup* setup) {
+  tactus_planner* planner = NULL;
+  *setup = *common;
+  const bool good = tactus_solver_from_name(name, &setup->planner.solver) == TACTUS_OK &&
+                    tactus_planner_create(setup->scenario, &setup->planner, &planner) == TACTUS_OK;
+  tactus_planner_destroy(planner);
+  if (!good) fprintf(stderr, "tactus compare: --solvers: %s: %s\n", name, tactus_last_error());
+  return good;
+}
+
+static bool set_up(compare* c) {
+  if (!load_setup(&c->options, &c->setup)) return false;
+  if (c->options.phase != phase_whole && c->setup.trial.belief.kind == TACTUS_BELIEF_PARTICLES)
+    return complain("--phase", trial_phase_name(c->options.phase),
+                    "whole: a belief of particles has no voxels; for phases ask for --belief hierarchical");
+  for (int s = 0; s < c->comparison.solver_count; ++s)
+    if (!set_up_solver(&c->setup.trial, c->comparison.results[s].setting.solver, &c->setups[s])) return false;
+  return true;
+}
+
+/* --- the results */
+
+static int count_trials(const comparison* c) {
+  int count = 0;
+  for (int s = 0; s < c->solver_count; ++s) count += c->results[s].count;
+  return count;
+}
+
+static bool belongs(const compare* c, const comparison* found, const run_setting* setting) {
+  const trial_options* o = &c->options;
+  if (!settings_agree(o->json, &found->setting, setting)) return false;
+  for (int s = 0; s < found->solver_count; ++s)
+    if (!seeds_belong(o->json, &found->results[s], o->seed, o->trials)) return false;
+  return true;
+}
+
+/* The trials that the file has, if they are of this comparison. */
+static bool take_over(compare* c, const run_setting* setting) {
+  const trial_options* o = &c->options;
+  comparison found;
+  memset(&found, 0, sizeof found);
+  const results_file file = {o->json, &comparison_format, &found};
+  if (!load_results(&file) || (count_trials(&found) > 0 && !belongs(c, &found, setting))) {
+    free_comparison(&found);
+    return false;
+  }
+  if (o->phase == phase_poses) forget_half_done(&found); /* their beliefs were not kept */
+  if (count_trials(&found) > 0)
+    c->comparison = found;
+  else
+    free_comparison(&found);
+  fprintf(stderr, "%s: %d of %d trials are there\n", o->json, count_trials(&found),
+          c->comparison.solver_count * o->trials);
+  return true;
+}
+
+static int report(const compare* c, const results_file* file) {
+  print_comparison(is_stdout(file->path) ? stderr : stdout, &c->comparison);
+  if (!write_at_end(file)) return exit_usage;
+  return all_finished(&c->comparison) ? exit_good : exit_not_inserted;
+}
+
+static int run_all(compare* c) {
+  const trial_options* o = &c->options;
+  const results_file file = {o->json, &comparison_format, &c->comparison};
+  if (!name_all(c) || !set_up(c)) return exit_usage;
+  const run_setting setting = setting_of(o, &c->setup);
+  if (o->resume && !take_over(c, &setting)) return exit_usage;
+  c->comparison.setting = setting;
+  const campaign all = {o, c->setups, c->comparison.results, c->comparison.solver_count, NULL, &file};
+  if (!save_results(&file) || !run_trials(&all)) return exit_usage;
+  return report(c, &file);
+}
+
+int compare_command(int argc, char** argv) {
+  compare c;
+  memset(&c, 0, sizeof c);
+  const int result = parse_options("compare", argc, argv, &c.options) ? run_all(&c) : exit_usage;
+  free_comparison(&c.comparison);
+  free_setup(&c.setup);
+  return result;
+}
