@@ -8,8 +8,10 @@
 #include <set>
 #include <sstream>
 
+#include "belief/small_task.hpp"
 #include "solver/exact.hpp"
 #include "solver/random_instance.hpp"
+#include "solver/sampled_instance.hpp"
 
 /// Instances written as files and read back by plain readers of the formats: the models are the instance, and so is
 /// what the best policy costs on them.
@@ -293,6 +295,18 @@ TEST(PomdpFile, IsSolvedAtTheSameCostAsTheInstance) {
     const double optimum = *solver.value(0, support::Bitset(instance->weight.size(), true));
     EXPECT_NEAR(best_reward(read_pomdpx(solver::pomdpx(*instance))), -optimum, exact);
     EXPECT_NEAR(best_reward(read_pomdp(solver::pomdp(*instance))), -optimum, exact);
+  }
+}
+
+TEST(PomdpFile, OfATaskIsSolvedAtTheSameCost) {
+  Rng rng(5);
+  const auto instance = std::make_shared<const Instance>(
+      solver::sampled_instance(*small_task(), {.poses = 5, .configurations = 16, .motions = 3}, rng));
+  solver::ExactSolver solver(instance, instance->discount);
+  const double optimum = *solver.value(0, support::Bitset(instance->weight.size(), true));
+  for (const Model& model : {read_pomdpx(solver::pomdpx(*instance)), read_pomdp(solver::pomdp(*instance))}) {
+    expect_is(model, *instance, false);
+    EXPECT_NEAR(best_reward(model), -optimum, exact);
   }
 }
 
