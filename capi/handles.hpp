@@ -5,6 +5,7 @@
 #include "drawing.hpp"
 #include "scenario/scenario.hpp"
 #include "simulation/world.hpp"
+#include "solver/instance.hpp"
 #include "tactus/tactus.h"
 
 /// What the opaque handles of the C ABI hold. All but the scenario keep the scenario's contents alive.
@@ -51,6 +52,11 @@ struct tactus_world {
   mutable std::atomic<bool> in_use{false};
 };
 
+struct tactus_instance {
+  ScenarioPtr scenario;
+  tactus::solver::InstancePtr instance;
+};
+
 namespace tactus::capi {
 
 inline int dof(const ScenarioPtr& scenario) { return scenario->task->scene().robot->dof(); }
@@ -65,5 +71,8 @@ inline void check_same(const ScenarioPtr& expected, const ScenarioPtr& found, co
 
 /// What a `tactus_observation` says, checked.
 belief::Observation observation_from(const tactus_observation* observation, int dof);
+
+/// What the caller asks for, checked; `defaults` where it does not say, or for NULL.
+solver::PlannerOptions planner_options(const tactus_planner_options* options, const solver::PlannerOptions& defaults);
 
 }  // namespace tactus::capi

@@ -76,6 +76,11 @@ Status status_of(solver::Answer::Kind kind) {
 
 }  // namespace
 
+solver::PlannerOptions tactus::capi::planner_options(const tactus_planner_options* options,
+                                                     const solver::PlannerOptions& defaults) {
+  return options == nullptr ? defaults : options_from(read_struct(options, options_of(defaults), "options"), defaults);
+}
+
 const char* tactus_solver_name(tactus_solver solver) noexcept {
   return is_solver(solver) ? solver::name_of(static_cast<Solver>(solver)) : "unknown";
 }
@@ -105,9 +110,7 @@ tactus_status tactus_planner_create(const tactus_scenario* scenario, const tactu
   return guarded(__func__, [&] {
     tactus_planner*& made = cleared(planner, "planner");
     const ScenarioPtr& contents = required(scenario, "scenario").contents;
-    solver::PlannerOptions chosen = contents->planner;
-    if (options != nullptr) chosen = options_from(read_struct(options, options_of(chosen), "options"), chosen);
-    made = new tactus_planner(contents, chosen);
+    made = new tactus_planner(contents, planner_options(options, contents->planner));
   });
 }
 

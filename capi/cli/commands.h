@@ -9,5 +9,7 @@ enum { exit_good = 0, exit_not_inserted = 1, exit_usage = 2 };
 int run_command(int argc, char** argv);
 int compare_command(int argc, char** argv);
 int check_command(int argc, char** argv);
+int export_command(int argc, char** argv);
+int evaluate_command(int argc, char** argv);
 
 #endif

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "commands.h"
+#include "instance_options.h"
 #include "options.h"
 #include "tactus/tactus.h"
 
@@ -18,11 +19,14 @@ int main(int argc, char** argv) {
   if (strcmp(command, "run") == 0) return run_command(argc - 2, argv + 2);
   if (strcmp(command, "compare") == 0) return compare_command(argc - 2, argv + 2);
   if (strcmp(command, "check") == 0) return check_command(argc - 2, argv + 2);
+  if (strcmp(command, "export") == 0) return export_command(argc - 2, argv + 2);
+  if (strcmp(command, "evaluate") == 0) return evaluate_command(argc - 2, argv + 2);
   if (strcmp(command, "--version") == 0) {
     printf("tactus %s\n", tactus_version_string());
     return exit_good;
   }
   const int asked = strcmp(command, "--help") == 0;
   fputs(usage, asked ? stdout : stderr);
+  fputs(instance_usage, asked ? stdout : stderr);
   return asked ? exit_good : exit_usage;
 }

@@ -16,6 +16,8 @@ const char* const usage =
     "       tactus compare SCENARIO [options]   the same trials by several solvers, and what each takes beside the "
     "first\n"
     "       tactus check SCENARIO               name everything that is wrong with a scenario\n"
+    "       tactus export SCENARIO [options]    write a small instance of it for public POMDP solvers\n"
+    "       tactus evaluate SCENARIO [options]  what a policy costs on such an instance, and the least possible\n"
     "       tactus --version | --help\n"
     "\n"
     "options of run and compare:\n"

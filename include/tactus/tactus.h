@@ -21,6 +21,7 @@
 
 #include "tactus/action.h"
 #include "tactus/belief.h"
+#include "tactus/instance.h"
 #include "tactus/planner.h"
 #include "tactus/scenario.h"
 #include "tactus/status.h"

@@ -8,75 +8,15 @@
 #include "solver/greedy.hpp"
 #include "solver/pose_problem.hpp"
 #include "solver/voxel_problem.hpp"
-#include "support/error.hpp"
 
 namespace tactus::solver {
 namespace {
 
-using support::Error;
-using support::Status;
-
 constexpr double noticeable_bits = 0.1;
 constexpr int patience = 3;               // queries in which the belief hardly shrank
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
-constexpr std::array<std::pair<Solver, const char*>, 7> names{{{Solver::rtdp_bel, "rtdp-bel"},
-                                                               {Solver::rtdp_inad, "rtdp-inad"},
-                                                               {Solver::rtdp_ad, "rtdp-ad"},
-                                                               {Solver::brtdp_bel, "brtdp-bel"},
-                                                               {Solver::tbl, "tbl"},
-                                                               {Solver::frontier, "frontier"},
-                                                               {Solver::rate, "rate"}}};
-
-std::optional<Greedy> greedy_of(Solver solver) {
-  switch (solver) {
-    case Solver::tbl:
-      return Greedy::tbl;
-    case Solver::frontier:
-      return Greedy::frontier;
-    case Solver::rate:
-      return Greedy::rate;
-    default:
-      return std::nullopt;
-  }
-}
-
-double epsilon_of(const PlannerOptions& options) {
-  if (options.solver == Solver::rtdp_inad) return 0.0;
-  return options.solver == Solver::rtdp_ad ? 1.0 : options.epsilon;
-}
-
-void check(const PlannerOptions& options) {
-  const auto fail = [](const std::string& what) { throw Error(Status::invalid_argument, "planner options: " + what); };
-  if (options.solver == Solver::brtdp_bel)
-    fail(
-        "solver: found brtdp-bel, which this version does not have, expected rtdp-bel, rtdp-inad, rtdp-ad, tbl, "
-        "frontier or rate");
-  if (std::none_of(names.begin(), names.end(), [&](const auto& entry) { return entry.first == options.solver; }))
-    fail("solver: found " + std::to_string(static_cast<int>(options.solver)) + ", expected 1 to 7");
-  if (!(options.cost_per_bit >= 0.0))
-    fail("cost_per_bit: found " + std::to_string(options.cost_per_bit) + ", expected a number that is not negative");
-  if (!(options.budget_seconds > 0.0))
-    fail("budget_seconds: found " + std::to_string(options.budget_seconds) + ", expected a positive number");
-  if (std::isinf(options.budget_seconds) && options.budget_expansions == 0)
-    fail("found no budget, expected seconds or expansions");
-  if (!(options.epsilon >= 0.0 && options.epsilon <= 1.0))
-    fail("epsilon: found " + std::to_string(options.epsilon) + ", expected 0 to 1");
-  if (options.horizon < 1) fail("horizon: found " + std::to_string(options.horizon) + ", expected at least 1");
-}
 
 }  // namespace
-
-std::optional<Solver> solver_from(const std::string& name) {
-  for (const auto& [solver, text] : names)
-    if (name == text) return solver;
-  return std::nullopt;
-}
-
-const char* name_of(Solver solver) {
-  for (const auto& [candidate, text] : names)
-    if (candidate == solver) return text;
-  return "unknown";
-}
 
 /// The partial policy of the last planning call, and the action that was handed out from it.
 struct Planner::Policy {
@@ -183,10 +123,13 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
                 ->start(belief.configuration(), belief.voxels());
   } else {
     poses_ = belief.draw(model_->options.particles, rng_, poses_, deadline);
-    start = std::make_shared<PoseProblem>(model_->task, library_, poses_, belief.summary().bits, options_.cost_per_bit)
+    start = std::make_shared<PoseProblem>(model_->task, library_, poses_, belief.summary().bits, options_.cost_per_bit,
+                                          second_value_of(options_.solver))
                 ->start(belief.configuration());
   }
-  policy_ = std::make_unique<Policy>(Policy{Search(std::move(start), {epsilon_of(options_), options_.horizon})});
+  SearchOptions search = search_options(options_);
+  search.bounded = search.bounded && belief.phase() == belief::Phase::poses;
+  policy_ = std::make_unique<Policy>(Policy{Search(std::move(start), search)});
   if (greedy_of(options_.solver))
     policy_->search.expand_start(deadline);
   else

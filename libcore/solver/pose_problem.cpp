@@ -110,7 +110,7 @@ class PoseState : public BeliefState {
 };
 
 PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
-                         std::vector<Pose> poses, double bits, double cost_per_bit, Second second)
+                         std::vector<Pose> poses, double bits, double cost_per_bit, SecondValue second)
     : task_(std::move(task)),
       library_(std::move(library)),
       predictions_(task_, std::move(poses)),
@@ -124,7 +124,7 @@ PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_p
 }
 
 BeliefStatePtr PoseProblem::start(const JointVector& q) {
-  if (second_ == Second::upper_bound) policy_ = rate_policy(q);
+  if (second_ == SecondValue::upper_bound) policy_ = rate_policy(q);
   auto state = std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_.poses().size(), true), true);
   std::vector<double> cost, gained;
   for (const Choice& choice : state->choices()) {

@@ -14,13 +14,10 @@ namespace tactus::solver {
 /// and where each pose is first touched on each motion. One thread.
 class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
  public:
-  /// The second value function, beside the lower bound: h_inad = h_ad + cost per bit x bits, or the upper bound that is
-  /// what going on by `RatePolicy` costs.
-  enum class Second { greedy, upper_bound };
-
   /// `bits`: log2 of how many tolerances the full belief spans; `cost_per_bit` in units of cost.
   PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
-              std::vector<geometry::Pose> poses, double bits, double cost_per_bit, Second second = Second::greedy);
+              std::vector<geometry::Pose> poses, double bits, double cost_per_bit,
+              SecondValue second = SecondValue::greedy);
 
   /// The belief at the start: all poses.
   BeliefStatePtr start(const robot::JointVector& q);
@@ -49,7 +46,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   std::vector<Attempt> attempts_;            ///< by seat
   double bits_;
   double cost_per_bit_;
-  Second second_;
+  SecondValue second_;
   std::unique_ptr<RatePolicy> policy_;  ///< once there is a start, if its cost is the second value
   std::vector<action::MotionPtr> anchored_;
   bool anchored_made_ = false;

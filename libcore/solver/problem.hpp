@@ -14,6 +14,10 @@ namespace tactus::solver {
 enum class ValueType { admissible = 0, inadmissible = 1 };
 using Values = std::array<double, 2>;  ///< indexed by `ValueType`, in units of cost
 
+/// What the second one begins from: a greedy heuristic that may be too high or too low (h_inad), or what a simple
+/// policy costs, which the value is never above.
+enum class SecondValue { greedy, upper_bound };
+
 /// What may come of a motion: first contact at a waypoint, or none (`waypoint` is then the path's size).
 struct Outcome {
   std::size_t waypoint = 0;

@@ -55,7 +55,7 @@ void Search::run(support::Deadline& deadline) {
   if (!nodes_[start].expanded) expand(start, deadline);
   bool admissible_done = options_.epsilon <= 0.0;
   int idle = 0;
-  while (!deadline.spent()) {
+  while (!deadline.spent() && !converged()) {
     const bool explore = !admissible_done && deadline.used_fraction() < options_.epsilon;
     const std::uint64_t before = deadline.expansions();
     const bool changed = trial(deadline, explore ? ValueType::admissible : ValueType::inadmissible);
@@ -68,9 +68,16 @@ void Search::run(support::Deadline& deadline) {
   }
 }
 
+/// U - L at the start is small enough.
+bool Search::converged() const {
+  const Values& at_start = nodes_[start].value;
+  return options_.bounded && at_start[1] - at_start[0] <= options_.gap * at_start[0];
+}
+
 /// One trial; says whether it changed anything.
 bool Search::trial(support::Deadline& deadline, ValueType guide) {
   bool changed = false;
+  std::vector<int> passed;
   int node = start;
   for (int depth = 0; depth < options_.horizon && !deadline.spent(); ++depth) {
     if (!nodes_[node].expanded) {
@@ -78,13 +85,33 @@ bool Search::trial(support::Deadline& deadline, ValueType guide) {
       changed = true;
     }
     changed = update(node) || changed;
+    passed.push_back(node);
     const auto choice = best_by(node, guide);
     if (!choice) break;
-    const std::size_t outcome = most_likely(nodes_[node].choices[*choice]);
-    if (nodes_[node].choices[*choice].outcomes[outcome].goal) break;
-    node = follow(node, *choice, outcome);
+    const auto outcome = outcome_to_follow(node, *choice);
+    if (!outcome) break;
+    node = follow(node, *choice, *outcome);
   }
+  if (options_.bounded)
+    for (std::size_t i = passed.size(); i-- > 0;) changed = update(passed[i]) || changed;
   return changed;
+}
+
+/// The most likely one, or the one with the largest P (U - L); none if that leads to the goal, or nowhere.
+std::optional<std::size_t> Search::outcome_to_follow(int node, std::size_t choice) const {
+  const Choice& taken = nodes_[node].choices[choice];
+  if (!options_.bounded) {
+    const std::size_t outcome = most_likely(taken);
+    return taken.outcomes[outcome].goal ? std::nullopt : std::optional(outcome);
+  }
+  std::optional<std::size_t> widest;
+  double most = value_change;
+  for (std::size_t z = 0; z < taken.outcomes.size(); ++z) {
+    if (taken.outcomes[z].goal) continue;
+    const double gap = ahead(node, choice, z, ValueType::inadmissible) - ahead(node, choice, z, ValueType::admissible);
+    if (taken.outcomes[z].probability * gap > most) most = taken.outcomes[z].probability * gap, widest = z;
+  }
+  return widest;
 }
 
 void Search::expand(int index, support::Deadline& deadline) {
@@ -102,24 +129,29 @@ bool Search::update(int index) {
   for (const ValueType type : {ValueType::admissible, ValueType::inadmissible}) {
     const auto choice = best_by(index, type);
     if (!choice) continue;
-    const double value = q_value(index, *choice, type);
     double& stored = nodes_[index].value[static_cast<int>(type)];
+    double value = q_value(index, *choice, type);
+    if (options_.bounded) value = type == ValueType::admissible ? std::max(value, stored) : std::min(value, stored);
     changed = changed || std::abs(value - stored) > value_change;
     stored = value;
   }
   return changed;
 }
 
-/// Q(b, a) = C(b, a) + sum over z of P(z | b, a) V(b_a^z), with the heuristic where no value is known.
-double Search::q_value(int index, std::size_t choice, ValueType type) const {
+/// V(b_a^z), or the heuristic where no value is known.
+double Search::ahead(int index, std::size_t choice, std::size_t outcome, ValueType type) const {
   const Node& node = nodes_[index];
+  const int child_index = node.children[choice][outcome];
+  return child_index >= 0 ? value(child_index, type)
+                          : node.choices[choice].outcomes[outcome].heuristic[static_cast<int>(type)];
+}
+
+/// Q(b, a) = C(b, a) + sum over z of P(z | b, a) V(b_a^z).
+double Search::q_value(int index, std::size_t choice, ValueType type) const {
+  const std::vector<Outcome>& outcomes = nodes_[index].choices[choice].outcomes;
   double sum = 0.0;
-  for (std::size_t z = 0; z < node.choices[choice].outcomes.size(); ++z) {
-    const Outcome& outcome = node.choices[choice].outcomes[z];
-    const int child_index = node.children[choice][z];
-    const double ahead = child_index >= 0 ? value(child_index, type) : outcome.heuristic[static_cast<int>(type)];
-    sum += outcome.probability * (outcome.cost + ahead);
-  }
+  for (std::size_t z = 0; z < outcomes.size(); ++z)
+    sum += outcomes[z].probability * (outcomes[z].cost + ahead(index, choice, z, type));
   return sum;
 }
 

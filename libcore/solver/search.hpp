@@ -12,11 +12,17 @@ namespace tactus::solver {
 struct SearchOptions {
   double epsilon = 0.5;  ///< share of the budget in which trials follow the admissible values; 0: RTDP-Inad, 1: RTDP-Ad
   int horizon = 8;       ///< motions a trial goes deep
+  /// The second value is an upper bound: both only get closer, trials go where they are farthest apart (bounded RTDP),
+  /// and the search ends when they are within `gap` of the lower one at the start.
+  bool bounded = false;
+  double gap = 0.01;
 };
 
 /// The paper's Algorithm 1, Modified RTDP-Bel: trials from the start that update both values of every belief they pass,
 /// choose the motion by one of them and follow the most likely outcome. What has been computed by the deadline is a
-/// partial policy. One thread.
+/// partial policy. Bounded (BRTDP on beliefs), L <= V* <= U at every belief, where the first values are below V* and
+/// the second ones above; the outcome followed is that with the largest P (U - L), and a trial's beliefs are updated
+/// again on the way back. One thread.
 class Search {
  public:
   Search(BeliefStatePtr start, const SearchOptions& options);
@@ -56,6 +62,9 @@ class Search {
   };
 
   bool trial(support::Deadline& deadline, ValueType guide);
+  bool converged() const;
+  std::optional<std::size_t> outcome_to_follow(int node, std::size_t choice) const;
+  double ahead(int node, std::size_t choice, std::size_t outcome, ValueType type) const;
   void expand(int node, support::Deadline& deadline);
   bool update(int node);
   std::optional<std::size_t> best_by(int node, ValueType type, const std::vector<bool>& banned = {}) const;

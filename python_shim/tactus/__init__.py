@@ -17,6 +17,7 @@ package, in the build folder of a checkout, or where the system keeps its librar
 from .action import Action, Observation
 from .belief import Belief, Event, Mode, Summary
 from .errors import BadInput, Busy, InvalidArgument, StopOffPath, TactusError, TaskImpossible, WrongScenario
+from .instance import Evaluation, Instance
 from .library import set_log, version
 from .planner import SOLVERS, Planner, Statistics
 from .scenario import Body, Scenario, check, pose_from_rpy
@@ -25,7 +26,7 @@ from .world import World
 __version__ = version()
 
 __all__ = [
-    "Action", "BadInput", "Belief", "Body", "Busy", "Event", "InvalidArgument", "Mode", "Observation", "Planner", "SOLVERS",
+    "Action", "BadInput", "Belief", "Body", "Busy", "Evaluation", "Event", "Instance", "InvalidArgument", "Mode", "Observation", "Planner", "SOLVERS",
     "Scenario", "Statistics", "StopOffPath", "Summary", "TactusError", "TaskImpossible", "World", "WrongScenario", "check",
     "pose_from_rpy", "set_log", "version",
 ]

@@ -13,7 +13,7 @@ from . import errors
 
 
 class ScenarioHandle(ctypes.Structure):
-    """An opaque handle; so are the four below."""
+    """An opaque handle; so are the five below."""
 
 
 class BeliefHandle(ctypes.Structure):
@@ -29,6 +29,10 @@ class ActionHandle(ctypes.Structure):
 
 
 class WorldHandle(ctypes.Structure):
+    pass
+
+
+class InstanceHandle(ctypes.Structure):
     pass
 
 
@@ -79,10 +83,21 @@ class WorldOptions(ctypes.Structure):
                 ("encoder_error", c_double), ("missed_contacts", c_double), ("false_contacts", c_double)]
 
 
+class InstanceOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("poses", c_uint32), ("configurations", c_uint32), ("motions", c_uint32),
+                ("discount", c_double), ("seed", c_uint64)]
+
+
+class EvaluationStruct(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("expected_cost", c_double), ("worst_cost", c_double),
+                ("inserted", c_double), ("lower_bound", c_double), ("value", c_double), ("plans", c_uint64),
+                ("expansions", c_uint64)]
+
+
 LOG_CALLBACK = ctypes.CFUNCTYPE(None, c_int32, c_char_p, c_void_p)
 
 _scenario, _belief, _planner = POINTER(ScenarioHandle), POINTER(BeliefHandle), POINTER(PlannerHandle)
-_action, _world = POINTER(ActionHandle), POINTER(WorldHandle)
+_action, _world, _instance = POINTER(ActionHandle), POINTER(WorldHandle), POINTER(InstanceHandle)
 _doubles, _bytes, _size, _flag = POINTER(c_double), POINTER(c_uint8), POINTER(c_size_t), POINTER(c_int32)
 _text = POINTER(c_char_p)
 
@@ -149,6 +164,13 @@ CHECKED = {
     "tactus_world_inserted": [_world, _flag],
     "tactus_world_travelled": [_world, _doubles, _doubles],
     "tactus_world_true_pose": [_world, _doubles],
+    "tactus_instance_options_init": [POINTER(InstanceOptions), c_size_t],
+    "tactus_instance_create": [_scenario, POINTER(InstanceOptions), POINTER(_instance)],
+    "tactus_instance_size": [_instance, _size, _size, _size],
+    "tactus_instance_export": [_instance, c_int32, c_void_p, c_size_t, _size],
+    "tactus_evaluation_init": [POINTER(EvaluationStruct), c_size_t],
+    "tactus_instance_evaluate": [_instance, POINTER(PlannerOptions), POINTER(EvaluationStruct)],
+    "tactus_instance_optimum": [_instance, c_uint64, _doubles, POINTER(c_uint64)],
 }
 
 # The others: name -> (type of the result, types of the arguments).
@@ -164,6 +186,7 @@ PLAIN = {
     "tactus_planner_destroy": (None, [_planner]),
     "tactus_action_destroy": (None, [_action]),
     "tactus_world_destroy": (None, [_world]),
+    "tactus_instance_destroy": (None, [_instance]),
 }
 
 

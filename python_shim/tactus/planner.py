@@ -33,6 +33,21 @@ class Statistics:
     total_seconds: float
 
 
+def planner_options(scenario, *, solver=None, seconds=None, expansions=None, epsilon=None, horizon=None, seed=None):
+    """The scenario's options with what is given over them; see `Planner`."""
+    options = struct(library.PlannerOptions, "tactus_planner_options_init")
+    call("tactus_scenario_planner_options", scenario.handle, ctypes.byref(options))
+    if solver is not None:
+        options.solver = value("tactus_solver_from_name", ctypes.c_int32, solver.encode())
+    if seconds is not None or expansions is not None:
+        options.budget_seconds = math.inf if seconds is None else seconds
+        options.budget_expansions = 0 if expansions is None else expansions
+    for name, given in (("epsilon", epsilon), ("horizon", horizon), ("seed", seed)):
+        if given is not None:
+            setattr(options, name, given)
+    return options
+
+
 class Planner(Object):
     """Remembers the policy it computed, and follows it while the observations are the predicted ones. One thread at a time."""
 
@@ -43,16 +58,8 @@ class Planner(Object):
 
         A query ends when the budget in ``seconds`` or the one in ``expansions`` is spent; with one of them given, the other is without
         limit. Expansions alone, and the same ``seed``, give the same actions on every machine. Raises `InvalidArgument`."""
-        options = struct(library.PlannerOptions, "tactus_planner_options_init")
-        call("tactus_scenario_planner_options", scenario.handle, ctypes.byref(options))
-        if solver is not None:
-            options.solver = value("tactus_solver_from_name", ctypes.c_int32, solver.encode())
-        if seconds is not None or expansions is not None:
-            options.budget_seconds = math.inf if seconds is None else seconds
-            options.budget_expansions = 0 if expansions is None else expansions
-        for name, given in (("epsilon", epsilon), ("horizon", horizon), ("seed", seed)):
-            if given is not None:
-                setattr(options, name, given)
+        options = planner_options(scenario, solver=solver, seconds=seconds, expansions=expansions, epsilon=epsilon,
+                                  horizon=horizon, seed=seed)
         super().__init__(self._made_by("tactus_planner_create", PlannerHandle, scenario.handle, ctypes.byref(options)))
         self._dof = scenario.dof
         self.reason = None

@@ -84,6 +84,24 @@ AT(tactus_world_options, missed_contacts, 32);
 AT(tactus_world_options, false_contacts, 40);
 SIZE(tactus_world_options, 48);
 
+AT(tactus_instance_options, struct_size, 0);
+AT(tactus_instance_options, poses, 4);
+AT(tactus_instance_options, configurations, 8);
+AT(tactus_instance_options, motions, 12);
+AT(tactus_instance_options, discount, 16);
+AT(tactus_instance_options, seed, 24);
+SIZE(tactus_instance_options, 32);
+
+AT(tactus_evaluation, struct_size, 0);
+AT(tactus_evaluation, expected_cost, 8);
+AT(tactus_evaluation, worst_cost, 16);
+AT(tactus_evaluation, inserted, 24);
+AT(tactus_evaluation, lower_bound, 32);
+AT(tactus_evaluation, value, 40);
+AT(tactus_evaluation, plans, 48);
+AT(tactus_evaluation, expansions, 56);
+SIZE(tactus_evaluation, 64);
+
 #define VALUE(name, value) _Static_assert((name) == (value), #name " has another value")
 
 VALUE(TACTUS_OK, 0);
@@ -133,6 +151,9 @@ VALUE(TACTUS_SOLVER_BRTDP_BEL, 4);
 VALUE(TACTUS_SOLVER_TBL, 5);
 VALUE(TACTUS_SOLVER_FRONTIER, 6);
 VALUE(TACTUS_SOLVER_RATE, 7);
+
+VALUE(TACTUS_FORMAT_POMDPX, 1);
+VALUE(TACTUS_FORMAT_POMDP, 2);
 
 VALUE(TACTUS_LOG_DEBUG, 0);
 VALUE(TACTUS_LOG_INFO, 1);

@@ -4,6 +4,7 @@
 set -u
 tactus=$1
 shelf=$2/examples/scenarios/shelf_3d.yaml
+small=$2/tests/capi/small_shelf.yaml
 failures=0
 
 # expect STATUS WORD ARGUMENTS...: the command ends with this status and says the word.
@@ -49,5 +50,18 @@ expect 2 'tactus compare: --resume: expected --json' compare x.yaml --solvers ra
 expect 2 '/nowhere.yaml' compare /nowhere.yaml --solvers rate,tbl
 expect 2 '/nowhere.yaml' run /nowhere.yaml
 expect 2 '/nowhere.yaml' check /nowhere.yaml
+expect 2 'SCENARIO' export
+expect 2 'expected a file' export x.yaml
+expect 2 'unknown option' export x.yaml --solver rate
+expect 2 'unknown option' evaluate x.yaml --pomdp x
+expect 2 'a whole number' evaluate x.yaml --poses many
+expect 2 'greater than 0' evaluate x.yaml --budget-expansions 0
+expect 2 '/nowhere.yaml' evaluate /nowhere.yaml
+expect 2 "poses: found 0" evaluate "$small" --poses 0
+expect 2 "'guess'" evaluate "$small" --solver guess
+expect 2 "can't be written" export "$small" --pomdp /nowhere/x.pomdp
+expect 0 'Discount' export "$small" --poses 5 --pomdpx -
+expect 0 'cost / optimum' evaluate "$small" --poses 5
+expect 0 '"optimum": null' evaluate "$small" --poses 5 --most-beliefs 1 --json -
 expect 0 'nothing wrong' check "$shelf"
 exit "$failures"

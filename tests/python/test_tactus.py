@@ -111,6 +111,18 @@ def test_arrays_have_their_shapes(scenario, action):
     assert summary.covariance.shape == (6, 6) and summary.phase == "voxels"
 
 
+def test_an_instance_brackets_a_policy(scenario):
+    with tactus.Instance(scenario, poses=6, configurations=20, motions=3) as instance:
+        assert instance.size["poses"] == 6
+        found = instance.evaluate(solver="rate", expansions=50)
+        assert found.inserted == pytest.approx(1.0)
+        assert found.lower_bound * 0.9 < instance.optimum() <= found.expected_cost + 1e-9 <= found.worst_cost + 2e-9
+        assert np.isnan(instance.optimum(most_beliefs=1))
+        assert "<Discount>0.999" in instance.export() and "discount: 0.999" in instance.export("pomdp")
+    with pytest.raises(tactus.InvalidArgument, match="poses"):
+        tactus.Instance(scenario, poses=0)
+
+
 def test_a_belief_tells_its_history_and_its_modes(scenario, action):
     belief = tactus.Belief(scenario, kind="particles")
     belief.step(action, tactus.Observation(True, action.waypoints[1]))
