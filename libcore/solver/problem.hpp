@@ -21,6 +21,7 @@ enum class SecondValue { greedy, upper_bound };
 /// What may come of a motion: first contact at a waypoint, or none (`waypoint` is then the path's size).
 struct Outcome {
   std::size_t waypoint = 0;
+  std::size_t last = 0;  ///< the same, or a later one: first contact at a waypoint up to this one
   double probability = 0.0;
   double cost = 0.0;   ///< of the motion up to there, the way to its start and back to the last free waypoint
   bool goal = false;   ///< the successor needs nothing more; on voxels an estimate: it is expected to be handed over
