@@ -72,7 +72,7 @@ bool could_be(const Alternative& alternative) {
 }
 
 TEST(Alternatives, HoldTheActionThatWasHandedOutAndItIsTheFirstThatCouldBe) {
-  std::size_t compared = 0;
+  std::size_t compared = 0, set_aside = 0;
   for_queries([&](const Belief&, const Planner& planner, const Answer& answer, Solver) {
     const std::vector<Alternative>& weighed = planner.alternatives();
     ASSERT_EQ(weighed.empty(), answer.action == nullptr);
@@ -85,8 +85,10 @@ TEST(Alternatives, HoldTheActionThatWasHandedOutAndItIsTheFirstThatCouldBe) {
     ASSERT_EQ(chosen->choice.contact_probability(), answer.action->contact_probability);
     ASSERT_EQ(chosen->q[1], answer.action->expected_cost);
     compared += weighed.size() - 1;
+    set_aside += count(weighed, Verdict::set_aside);
   });
   EXPECT_GT(compared, 1000u);
+  EXPECT_GT(set_aside, 0u);
 }
 
 TEST(Alternatives, AreInTheOrderInWhichTheSolverWouldTakeThem) {
