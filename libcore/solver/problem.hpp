@@ -34,6 +34,7 @@ struct Choice {
   std::vector<Outcome> outcomes;
   double expected_cost() const;  ///< C(b, a)
   double contact_probability() const;
+  double goal_probability() const;
   double information() const;  ///< expected bits by which the outcomes split the belief
 };
 
