@@ -91,7 +91,8 @@ void Planner::note_fruitless(const belief::Belief& belief) {
     standing_.fruitless.clear();
   else if (!history.empty())
     standing_.fruitless.push_back(history.back().action_id);
-  const double bits = belief.summary().bits;
+  const double bits =
+      std::log2(belief.phase() == belief::Phase::voxels ? static_cast<double>(size) : belief.cells().weight());
   const bool shrank = is_first || bits < standing_.bits - noticeable_bits;
   standing_.stalls = shrank ? 0 : standing_.stalls + 1;
   if (shrank) standing_.bits = bits;
@@ -131,6 +132,7 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
     start = std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)
                 ->start(belief.configuration(), belief.voxels());
   } else {
+    if (standing_.stalls >= patience) poses_.clear();
     poses_ = belief.draw(model_->options.particles, rng_, poses_, deadline);
     start = std::make_shared<PoseProblem>(model_->task, library_, poses_, belief.summary().bits, options_.cost_per_bit,
                                           second_value_of(options_.solver))
@@ -160,6 +162,12 @@ Answer Planner::hand_out(const belief::Belief& belief, int node, std::size_t cho
   return {Answer::Kind::action, std::make_shared<const action::Action>(std::move(made))};
 }
 
+/// Once the robot is stuck: small motions about where it is; and once that has not helped, attempts where the target is
+/// not.
+bool Planner::is_unpromising(const action::Motion& motion) const {
+  return !motion.anchored || (standing_.stalls >= 2 * patience && motion.kind == action::Kind::insertion);
+}
+
 /// The best motion at a node, made executable; the next best where the robot can't get to its start.
 Answer Planner::act(const belief::Belief& belief, int node, const support::Deadline& deadline) {
   const Search& search = policy_->search;
@@ -173,7 +181,8 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   const bool is_stuck = standing_.stalls >= patience;
   if (is_stuck)
     for (std::size_t i = 0; i < choices.size(); ++i)
-      if (!choices[i].motion->anchored) ban(i, Verdict::set_aside);
+      if (is_unpromising(*choices[i].motion)) ban(i, Verdict::set_aside);
+  if (std::find(banned.begin(), banned.end(), false) == banned.end()) std::fill(banned.begin(), banned.end(), false);
   const auto next = [&] {
     const auto rule = greedy_of(options_.solver);
     return rule ? greedy_choice(choices, *rule, banned) : search.best(node, banned);

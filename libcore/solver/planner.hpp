@@ -53,6 +53,7 @@ class Planner {
   std::optional<int> followed(const belief::Belief& belief);
   Answer act(const belief::Belief& belief, int node, const support::Deadline& deadline);
   Answer hand_out(const belief::Belief& belief, int node, std::size_t choice, action::Action made);
+  bool is_unpromising(const action::Motion& motion) const;
   void plan(const belief::Belief& belief, support::Deadline& deadline);
 
   std::shared_ptr<const belief::Model> model_;
