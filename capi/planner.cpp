@@ -11,6 +11,7 @@ using namespace tactus::capi;
 namespace {
 
 using solver::Solver;
+using solver::Verdict;
 
 static_assert(TACTUS_SOLVER_RTDP_BEL == static_cast<int>(Solver::rtdp_bel) &&
               TACTUS_SOLVER_RTDP_INAD == static_cast<int>(Solver::rtdp_inad) &&
@@ -58,6 +59,39 @@ tactus_statistics statistics_of(const solver::PlannerStatistics& from) {
   statistics.total_expansions = from.total_expansions;
   statistics.total_seconds = from.total_seconds;
   return statistics;
+}
+
+static_assert(TACTUS_VERDICT_PASSED_OVER == static_cast<int>(Verdict::passed_over) &&
+              TACTUS_VERDICT_CHOSEN == static_cast<int>(Verdict::chosen) &&
+              TACTUS_VERDICT_UNREACHABLE == static_cast<int>(Verdict::unreachable) &&
+              TACTUS_VERDICT_SET_ASIDE == static_cast<int>(Verdict::set_aside));
+
+/// Of the tool link.
+geometry::Vector3 position_at(const action::Motion& motion, std::size_t waypoint) {
+  return motion.bodies.base_from_body(waypoint, 0).translation();
+}
+
+tactus_alternative alternative_of(const solver::Alternative& from) {
+  const action::Motion& motion = *from.choice.motion;
+  const geometry::Vector3 start = position_at(motion, 0), end = position_at(motion, motion.path.size() - 1);
+  tactus_alternative alternative{};
+  alternative.kind = static_cast<tactus_action_kind>(motion.kind);
+  alternative.verdict = static_cast<tactus_verdict>(from.verdict);
+  alternative.outcomes = static_cast<uint32_t>(from.choice.outcomes.size());
+  alternative.lower_bound = from.q[0];
+  alternative.value = from.q[1];
+  alternative.motion_cost = from.choice.expected_cost();
+  alternative.information = from.choice.information();
+  alternative.contact_probability = from.choice.contact_probability();
+  alternative.goal_probability = from.choice.goal_probability();
+  std::copy(start.begin(), start.end(), alternative.start);
+  std::copy(end.begin(), end.end(), alternative.end);
+  return alternative;
+}
+
+const solver::Alternative& alternative_at(const tactus_planner& planner, size_t index) {
+  const std::vector<solver::Alternative>& alternatives = planner.planner.alternatives();
+  return alternatives[index_below(alternatives.size(), index, "index")];
 }
 
 Status status_of(solver::Answer::Kind kind) {
@@ -141,5 +175,57 @@ tactus_status tactus_planner_statistics(const tactus_planner* planner, tactus_st
   return guarded(__func__, [&] {
     const Use use(required(planner, "planner").in_use, "planner");
     write_struct(statistics, statistics_of(planner->planner.statistics()), "statistics");
+  });
+}
+
+const char* tactus_verdict_name(tactus_verdict verdict) noexcept {
+  switch (verdict) {
+    case TACTUS_VERDICT_PASSED_OVER:
+      return "passed over";
+    case TACTUS_VERDICT_CHOSEN:
+      return "chosen";
+    case TACTUS_VERDICT_UNREACHABLE:
+      return "unreachable";
+    case TACTUS_VERDICT_SET_ASIDE:
+      return "set aside";
+    default:
+      return "unknown";
+  }
+}
+
+tactus_status tactus_alternative_init(tactus_alternative* alternative, size_t size) noexcept {
+  return guarded(__func__, [&] { init_struct(alternative, size, tactus_alternative{}, "alternative"); });
+}
+
+tactus_status tactus_planner_alternative_count(const tactus_planner* planner, size_t* count) noexcept {
+  return guarded(__func__, [&] {
+    const Use use(required(planner, "planner").in_use, "planner");
+    required(count, "count") = planner->planner.alternatives().size();
+  });
+}
+
+tactus_status tactus_planner_alternative(const tactus_planner* planner, size_t index,
+                                         tactus_alternative* alternative) noexcept {
+  return guarded(__func__, [&] {
+    const Use use(required(planner, "planner").in_use, "planner");
+    write_struct(alternative, alternative_of(alternative_at(*planner, index)), "alternative");
+  });
+}
+
+tactus_status tactus_planner_alternative_outcomes(const tactus_planner* planner, size_t index, double* outcomes,
+                                                  size_t capacity, size_t* count) noexcept {
+  return guarded(__func__, [&] {
+    const Use use(required(planner, "planner").in_use, "planner");
+    const solver::Choice& choice = alternative_at(*planner, index).choice;
+    double* out = room_for(choice.outcomes.size(), outcomes, capacity, count, "outcomes");
+    if (out == nullptr) return;
+    for (const solver::Outcome& outcome : choice.outcomes) {
+      const geometry::Vector3 stands = position_at(*choice.motion, outcome.waypoint - 1);
+      *out++ = outcome.probability;
+      *out++ = outcome.cost;
+      *out++ = outcome.waypoint < choice.motion->path.size() ? 1.0 : 0.0;
+      *out++ = outcome.goal ? 1.0 : 0.0;
+      out = std::copy(stands.begin(), stands.end(), out);
+    }
   });
 }

@@ -100,7 +100,7 @@ static tactus_status perform(episode* e, const tactus_action* action) {
   if (status != TACTUS_OK) return status;
   const char* kind = tactus_action_kind_name(properties.kind);
   print_progress(e, kind);
-  const step_facts facts = {kind, r->whole.cost_m, r->whole.planning_s};
+  const step_facts facts = {e->planner, kind, r->whole.cost_m, r->whole.planning_s};
   if (e->record != NULL && !record_step(e->record, action, &e->observation, e->belief, &facts)) return TACTUS_INTERNAL;
   return TACTUS_OK;
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "explanation.h"
 #include "json.h"
 #include "snapshot.h"
 
@@ -17,6 +18,7 @@ typedef struct {
   step_facts facts;
   bool contact;
   belief_snapshot belief;
+  explanation why;
 } recorded_step;
 
 struct recording {
@@ -162,7 +164,10 @@ static bool print_head(recording* record, const tactus_belief* belief) {
 }
 
 static void free_recording(recording* record) {
-  for (int i = 0; i < record->count; ++i) free_snapshot(&record->steps[i].belief);
+  for (int i = 0; i < record->count; ++i) {
+    free_snapshot(&record->steps[i].belief);
+    free_explanation(&record->steps[i].why);
+  }
   free(record->steps);
   free(record->poses);
   free(record->last_poses);
@@ -200,6 +205,10 @@ bool record_step(recording* record, const tactus_action* action, const tactus_ob
   step->facts = *facts;
   step->contact = observation->contact != 0;
   if (!print_action(record, action, observation) || !take_snapshot(belief, &step->belief)) return false;
+  if (!take_explanation(facts->planner, &step->why)) {
+    free_snapshot(&step->belief);
+    return false;
+  }
   ++record->count;
   return true;
 }
@@ -211,6 +220,8 @@ static void print_step(FILE* out, const recorded_step* step) {
   json_number_field(out, "planning_s", step->facts.planning_s, json_full);
   fputs(", \"belief\": ", out);
   print_snapshot(out, &step->belief);
+  fputs(", \"why\": ", out);
+  print_explanation(out, &step->why);
   fputc('}', out);
 }
 

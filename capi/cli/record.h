@@ -13,6 +13,7 @@ typedef struct recording recording;
 
 /* What the recording says of a step beside the action, the observation and the belief after it. */
 typedef struct {
+  const tactus_planner* planner; /* that has just handed out the action */
   const char* kind;
   double cost_m;
   double planning_s;

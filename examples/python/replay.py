@@ -6,7 +6,8 @@ The page is one file that needs no network. The record:
     scenario   its name
     bodies     [{name, kind: robot | tool | world | target, vertices: flat x y z in metres, triangles: flat indices}]
     frames     [{poses: a body each, x y z qx qy qz qw in the robot's base frame, action: index into steps, contact: bool}]
-    steps      [{kind, phase, contact, cost_m, planning_s, belief: {points: [[x, y, z]], ...}}], after the action: cost and planning so far
+    steps      [{kind, phase, contact, cost_m, planning_s, belief: {points: [[x, y, z]], ...}, why}], after the action: cost and planning so far
+               why: optional: {weighed: motions in all, alternatives: [{kind, verdict, value, ...}]}, the best of what the action was chosen from
     prior      optional: the belief at the start, with the same keys
     inserted   optional: whether the run ended plugged in; else judged by its last action
 """
@@ -20,6 +21,7 @@ import numpy as np
 
 MOST_FRAMES, MOST_POINTS = 3000, 3000  # in the page: more are thinned out
 SHOWN = ["possibly_occupied", "cells", "bits", "extent"]  # of a belief, in the page
+WEIGHED = ["kind", "verdict", "value", "lower_bound", "motion_cost", "information_bits", "contact_probability", "goal_probability", "start", "end"]
 
 
 def rotations(quaternions):
@@ -49,6 +51,8 @@ class Step:
         self.contact = bool(record.get("contact"))
         self.cost, self.planning = record.get("cost_m"), record.get("planning_s")
         self.belief = record.get("belief") or belief or {}
+        why = record.get("why") or {}
+        self.weighed, self.alternatives = why.get("weighed"), why.get("alternatives") or []
         self.points = np.array(self.belief.get("points") or [], float).reshape(-1, 3)
         room = np.maximum(np.ptp(self.points, axis=0), 0.005).prod() if len(self.points) else 0.0
         self.dot = float(np.clip(0.35 * np.cbrt(room / max(len(self.points), 1)), 0.0025, 0.010))  # radius in metres at which dots stay apart
@@ -115,7 +119,8 @@ def page_data(run):
 
     def step_data(step):
         return {"kind": step.kind, "phase": step.phase, "contact": step.contact, "cost": step.cost, "planning": step.planning,
-                **{key: step.belief.get(key) for key in SHOWN},
+                **{key: step.belief.get(key) for key in SHOWN}, "weighed": step.weighed,
+                "alternatives": [{key: alternative.get(key) for key in WEIGHED} for alternative in step.alternatives],
                 "dot": step.dot, "points": packed(thinned(step.points, MOST_POINTS), "<f4")}
 
     return {"scenario": run.scenario, "frames": len(frames), "poses": packed(run.poses[frames], "<f4"),

@@ -100,6 +100,72 @@ TACTUS_API tactus_status tactus_statistics_init(tactus_statistics* statistics, s
 TACTUS_API tactus_status tactus_planner_statistics(const tactus_planner* planner,
                                                    tactus_statistics* statistics) TACTUS_NOEXCEPT;
 
+/* --- why this action */
+
+typedef int32_t tactus_verdict;
+
+enum {
+  TACTUS_VERDICT_PASSED_OVER = 0, /**< a better one was found */
+  TACTUS_VERDICT_CHOSEN = 1,      /**< handed out */
+  TACTUS_VERDICT_UNREACHABLE = 2, /**< no free way to its start was found */
+  TACTUS_VERDICT_SET_ASIDE = 3    /**< it changed nothing when last tried, or it is small and the belief has stalled */
+};
+
+/** "passed over", "chosen", "unreachable", "set aside"; "unknown" for any other number. A constant. Any thread. */
+TACTUS_API const char* tactus_verdict_name(tactus_verdict verdict) TACTUS_NOEXCEPT;
+
+/**
+ * A motion that the planner weighed. Costs are in units of cost, positions are of the tool link in the robot's base
+ * frame. What a motion is expected to bring is as the belief was: on voxels its goal is the hand-over to poses.
+ */
+typedef struct tactus_alternative {
+  uint32_t struct_size;
+  tactus_action_kind kind;
+  tactus_verdict verdict;
+  uint32_t outcomes;          /**< number of them */
+  double lower_bound;         /**< admissible value of the motion and all that follows */
+  double value;               /**< inadmissible value of the same; brtdp-bel on poses: upper bound */
+  double motion_cost;         /**< expected, of this motion alone: the way to its start, and as far as it goes */
+  double information;         /**< expected bits by which its outcomes split the belief */
+  double contact_probability; /**< that it touches the target */
+  double goal_probability;    /**< that it reaches the goal */
+  double start[3];            /**< m, where the motion proper sets out from */
+  double end[3];              /**< m, where it ends if nothing is touched */
+} tactus_alternative;
+
+/** Sets `struct_size` to `size`, which is `sizeof *alternative`, and everything else to 0. */
+TACTUS_API tactus_status tactus_alternative_init(tactus_alternative* alternative, size_t size) TACTUS_NOEXCEPT;
+
+/**
+ * How many motions the planner weighed for the action that the last query handed out, that one among them; 0 if it
+ * handed out none. One-step rules weigh only what tells something or reaches the goal. Nothing is kept for this before
+ * it is asked for, and asking changes no later answer. The first call after a query takes about a microsecond a motion.
+ *
+ * TACTUS_BUSY.
+ */
+TACTUS_API tactus_status tactus_planner_alternative_count(const tactus_planner* planner, size_t* count) TACTUS_NOEXCEPT;
+
+/**
+ * One of them. They come in the order in which the solver would have handed them out: those that search by `value`
+ * (rtdp-ad by `lower_bound`), the lowest first; one-step rules by their score. The chosen one is the first that is
+ * neither unreachable nor set aside; what comes after it was not tried.
+ *
+ * TACTUS_INVALID_ARGUMENT (no such index), TACTUS_STRUCT_SIZE, TACTUS_BUSY.
+ */
+TACTUS_API tactus_status tactus_planner_alternative(const tactus_planner* planner, size_t index,
+                                                    tactus_alternative* alternative) TACTUS_NOEXCEPT;
+
+/**
+ * What may come of one of them, in the order along its path. `outcomes`: double (count x 7), of each its probability
+ * (they sum to one), what the motion costs then, 1 if it is a contact, 1 if it reaches the goal, and the x y z (m) of
+ * the tool link where the robot then stands.
+ *
+ * TACTUS_INVALID_ARGUMENT (no such index), TACTUS_BUFFER_TOO_SMALL, TACTUS_BUSY.
+ */
+TACTUS_API tactus_status tactus_planner_alternative_outcomes(const tactus_planner* planner, size_t index,
+                                                             double* outcomes, size_t capacity,
+                                                             size_t* count) TACTUS_NOEXCEPT;
+
 #ifdef __cplusplus
 }
 #endif

@@ -19,28 +19,22 @@ double score(const Choice& choice, Greedy rule) {
   return 0.0;
 }
 
-double goal_probability(const Choice& choice) {
-  double sum = 0.0;
-  for (const Outcome& outcome : choice.outcomes)
-    if (outcome.goal) sum += outcome.probability;
-  return sum;
-}
-
 }  // namespace
+
+std::optional<Merit> merit_of(const Choice& choice, Greedy rule) {
+  if (choice.goal_probability() > 0.5) return Merit{true, -choice.expected_cost()};
+  if (choice.information() <= least_information) return std::nullopt;
+  return Merit{false, score(choice, rule)};
+}
 
 std::optional<std::size_t> greedy_choice(const std::vector<Choice>& choices, Greedy rule,
                                          const std::vector<bool>& banned) {
   std::optional<std::size_t> best;
-  double highest = -1e300;
-  bool finishes = false;
+  std::optional<Merit> highest;
   for (std::size_t i = 0; i < choices.size(); ++i) {
     if (i < banned.size() && banned[i]) continue;
-    const bool completes = goal_probability(choices[i]) > 0.5;
-    if (finishes && !completes) continue;
-    if (!completes && choices[i].information() <= least_information) continue;
-    const double value = completes ? -choices[i].expected_cost() : score(choices[i], rule);
-    if (value > highest || (completes && !finishes)) highest = value, best = i;
-    finishes = finishes || completes;
+    const auto merit = merit_of(choices[i], rule);
+    if (merit > highest) highest = merit, best = i;  // none is less than any
   }
   return best;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "solver/problem.hpp"
 
@@ -13,6 +14,13 @@ enum class Greedy {
   frontier,  ///< the cheapest motion with any information
   rate,      ///< the most expected information per (expected cost + 2 cm)
 };
+
+/// What a rule makes of a motion, the highest being best: whether it more likely than not reaches the goal, then the
+/// rule's own score, or how cheap it is.
+using Merit = std::pair<bool, double>;
+
+/// None if the motion neither carries information nor is likely to reach the goal.
+std::optional<Merit> merit_of(const Choice& choice, Greedy rule);
 
 /// The index of the chosen motion; none if none carries information or reaches the goal.
 std::optional<std::size_t> greedy_choice(const std::vector<Choice>& choices, Greedy rule,

@@ -100,7 +100,7 @@ Outcome InstanceState::outcome(std::size_t motion, int to, const Bitset& poses) 
   const Instance::Results& results = instance().configurations[place_].results[motion];
   const double weight = weight_of(instance(), poses);
   Outcome made;
-  made.waypoint = motion * ends() + static_cast<std::size_t>(to + 1);
+  made.waypoint = made.last = motion * ends() + static_cast<std::size_t>(to + 1);
   made.probability = weight / weight_of(instance(), poses_);
   poses.for_each([&](std::size_t pose) { made.cost += instance().weight[pose] / weight * results[pose].cost; });
   made.goal = to == Instance::goal;

@@ -25,7 +25,8 @@ struct Planner::Policy {
   std::size_t choice = 0;
   std::size_t lead = 0;  ///< waypoints of the action before the motion proper
   std::uint64_t action_id = 0;
-  std::uint64_t history = 0;  ///< fingerprint of what the belief had been through
+  std::uint64_t history = 0;        ///< fingerprint of what the belief had been through
+  std::vector<Verdict> verdicts{};  ///< by choice; empty if the last query handed out no action
 };
 
 Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOptions& options)
@@ -42,6 +43,8 @@ Answer Planner::query(const belief::Belief& belief) {
   cancelled_.store(false, std::memory_order_relaxed);
   support::Deadline deadline(options_.budget_seconds,
                              options_.budget_expansions == 0 ? UINT64_MAX : options_.budget_expansions, &cancelled_);
+  alternatives_.clear();
+  if (policy_) policy_->verdicts.clear();
   statistics_.from_policy = false;
   statistics_.expansions = 0;
   statistics_.seconds = 0.0;
@@ -64,6 +67,12 @@ Answer Planner::query(const belief::Belief& belief) {
   statistics_.total_expansions += statistics_.expansions;
   statistics_.total_seconds += statistics_.seconds;
   return answer;
+}
+
+const std::vector<Alternative>& Planner::alternatives() const {
+  if (alternatives_.empty() && policy_ && !policy_->verdicts.empty())
+    alternatives_ = solver::alternatives(policy_->search, policy_->node, greedy_of(options_.solver), policy_->verdicts);
+  return alternatives_;
 }
 
 void Planner::note_fruitless(const belief::Belief& belief) {
@@ -136,14 +145,35 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
     policy_->search.run(deadline);
 }
 
+/// Notes what there is to follow.
+Answer Planner::hand_out(const belief::Belief& belief, int node, std::size_t choice, action::Action made) {
+  const Search& search = policy_->search;
+  made.expected_cost = search.q_value(node, choice, ValueType::inadmissible);
+  made.contact_probability = search.choices(node)[choice].contact_probability();
+  statistics_.lower_bound = search.value(node, ValueType::admissible);
+  statistics_.value = search.value(node, ValueType::inadmissible);
+  policy_->node = node;
+  policy_->choice = choice;
+  policy_->lead = made.lead;
+  policy_->action_id = made.id;
+  policy_->history = belief::fingerprint(belief.history(), belief.history().size());
+  return {Answer::Kind::action, std::make_shared<const action::Action>(std::move(made))};
+}
+
 /// The best motion at a node, made executable; the next best where the robot can't get to its start.
 Answer Planner::act(const belief::Belief& belief, int node, const support::Deadline& deadline) {
   const Search& search = policy_->search;
   const std::vector<Choice>& choices = search.choices(node);
   std::vector<bool> banned(choices.size(), false);
+  std::vector<Verdict> verdicts(choices.size(), Verdict::passed_over);
+  const auto ban = [&](std::size_t choice, Verdict verdict) {
+    banned[choice] = true;
+    verdicts[choice] = verdict;
+  };
   const bool is_stuck = standing_.stalls >= patience;
   if (is_stuck)
-    for (std::size_t i = 0; i < choices.size(); ++i) banned[i] = !choices[i].motion->anchored;
+    for (std::size_t i = 0; i < choices.size(); ++i)
+      if (!choices[i].motion->anchored) ban(i, Verdict::set_aside);
   const auto next = [&] {
     const auto rule = greedy_of(options_.solver);
     return rule ? greedy_choice(choices, *rule, banned) : search.best(node, banned);
@@ -154,19 +184,12 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
                                   is_stuck ? belief.way_back() : motion::JointPath{});
     if (made &&
         std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
-      made->expected_cost = search.q_value(node, *choice, ValueType::inadmissible);
-      made->contact_probability = choices[*choice].contact_probability();
-      statistics_.lower_bound = search.value(node, ValueType::admissible);
-      statistics_.value = search.value(node, ValueType::inadmissible);
-      policy_->node = node;
-      policy_->choice = *choice;
-      policy_->lead = made->lead;
-      policy_->action_id = made->id;
-      policy_->history = belief::fingerprint(belief.history(), belief.history().size());
-      return {Answer::Kind::action, std::make_shared<const action::Action>(std::move(*made))};
+      verdicts[*choice] = Verdict::chosen;
+      policy_->verdicts = std::move(verdicts);
+      return hand_out(belief, node, *choice, std::move(*made));
     }
     if (deadline.cancelled()) return {Answer::Kind::cancelled, nullptr};
-    banned[*choice] = true;
+    ban(*choice, made ? Verdict::set_aside : Verdict::unreachable);
   }
   policy_.reset();
   return {Answer::Kind::no_informative_action, nullptr};

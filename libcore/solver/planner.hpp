@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "belief/belief.hpp"
-#include "solver/search.hpp"
+#include "solver/alternatives.hpp"
 #include "solver/solvers.hpp"
 
 namespace tactus::solver {
@@ -44,10 +44,15 @@ class Planner {
 
   const PlannerStatistics& statistics() const { return statistics_; }
 
+  /// What was weighed against the action that the last query handed out, the best first, by what the solver executes.
+  /// Empty if there was none. Worked out when first asked for; good until the next query.
+  const std::vector<Alternative>& alternatives() const;
+
  private:
   struct Policy;
   std::optional<int> followed(const belief::Belief& belief);
   Answer act(const belief::Belief& belief, int node, const support::Deadline& deadline);
+  Answer hand_out(const belief::Belief& belief, int node, std::size_t choice, action::Action made);
   void plan(const belief::Belief& belief, support::Deadline& deadline);
 
   std::shared_ptr<const belief::Model> model_;
@@ -71,6 +76,7 @@ class Planner {
   Standing standing_;
   std::vector<geometry::Pose> poses_;  ///< of the last planning call on poses
   std::unique_ptr<Policy> policy_;
+  mutable std::vector<Alternative> alternatives_;  ///< once asked for
   std::atomic<bool> cancelled_{false};
   PlannerStatistics statistics_;
 };

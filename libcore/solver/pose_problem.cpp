@@ -63,7 +63,7 @@ class PoseState : public BeliefState {
   }
 
   BeliefStatePtr successor(const Choice& choice, const Outcome& outcome) const override {
-    Bitset left = problem_->predictions_.subset(choice.motion, members_, outcome.waypoint);
+    Bitset left = problem_->predictions_.subset(choice.motion, members_, outcome.waypoint, outcome.last);
     const auto& path = choice.motion->path;
     const bool contact = outcome.waypoint < path.size();
     return std::make_shared<PoseState>(problem_, contact ? path[outcome.waypoint - 1] : path.back(), std::move(left),
@@ -88,9 +88,11 @@ class PoseState : public BeliefState {
                                                                 motion->base_from_start)
                                          : 0.0;
     Choice choice{motion, {}};
-    for (const auto& [waypoint, group] : problem_->predictions_.split(motion, members_)) {
+    const std::size_t least = least_group(members_.count(), problem_->dimensions());
+    for (const auto& [waypoint, last, group] : problem_->predictions_.split(motion, members_, least)) {
       Outcome outcome;
       outcome.waypoint = waypoint;
+      outcome.last = last;
       outcome.probability = static_cast<double>(group.size()) / total;
       const std::size_t reached = std::min(waypoint, motion->path.size() - 1);
       outcome.cost = problem_->task_->options().cost.action + lead + motion->cost_to[reached];
@@ -133,6 +135,11 @@ BeliefStatePtr PoseProblem::start(const JointVector& q) {
   }
   cost_per_bit_ = greedy_cost_per_bit(cost, gained, cost_per_bit_);
   return state;
+}
+
+int PoseProblem::dimensions() const {
+  const geometry::PoseVector& width = task_->scene().prior.width;
+  return static_cast<int>(std::count_if(width.begin(), width.end(), [](double w) { return w > 0.0; }));
 }
 
 bool PoseProblem::seated(const Motion& motion, std::size_t pose) const {
@@ -226,7 +233,8 @@ std::unique_ptr<RatePolicy> PoseProblem::rate_policy(const JointVector& q) {
       if (seat % seats() == 0) served.back().set(seat / seats());
     });
   }
-  return std::make_unique<RatePolicy>(task_, predictions_, anchored(q), std::move(attempts), std::move(served));
+  return std::make_unique<RatePolicy>(task_, predictions_, anchored(q), std::move(attempts), std::move(served),
+                                      dimensions());
 }
 
 /// Of getting the tool to a seat, the straight way: by the retreat plane, where every attempt sets out.

@@ -26,6 +26,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   friend class PoseState;
   bool seated(const action::Motion& motion, std::size_t pose) const;
   const std::vector<action::MotionPtr>& anchored(const robot::JointVector& near);
+  int dimensions() const;  ///< that are free
   std::size_t seats() const { return task_->scene().target.target_from_seated.size(); }
   void find_neighbours();
   action::MotionPtr insertion_at(std::size_t seat, const robot::JointVector& near);

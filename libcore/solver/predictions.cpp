@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/predictions.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 namespace tactus::solver {
+
+std::size_t least_group(std::size_t count, int dimensions) {
+  const double left = dimensions > 0 ? std::pow(static_cast<double>(count), 1.0 - 1.0 / dimensions) : 1.0;
+  return static_cast<std::size_t>(std::max(1.0, std::round(0.5 * left)));
+}
 
 std::size_t Predictions::first_contact(const action::MotionPtr& motion, std::size_t pose) {
   auto [entry, is_new] = rows_.try_emplace(motion.get());
@@ -18,18 +27,27 @@ const std::vector<std::int32_t>& Predictions::first_contacts(const action::Motio
   return rows_.at(motion.get()).first_contact;
 }
 
-std::map<std::size_t, std::vector<std::size_t>> Predictions::split(const action::MotionPtr& motion,
-                                                                   const support::Bitset& members) {
-  std::map<std::size_t, std::vector<std::size_t>> groups;
-  members.for_each([&](std::size_t pose) { groups[first_contact(motion, pose)].push_back(pose); });
+std::vector<Group> Predictions::split(const action::MotionPtr& motion, const support::Bitset& members,
+                                      std::size_t least) {
+  std::map<std::size_t, std::vector<std::size_t>> touched;
+  members.for_each([&](std::size_t pose) { touched[first_contact(motion, pose)].push_back(pose); });
+  std::vector<Group> groups;
+  for (auto& [waypoint, poses] : touched) {
+    if (waypoint == motion->path.size() || groups.empty() || groups.back().poses.size() >= least)
+      groups.push_back({waypoint, waypoint, {}});
+    groups.back().last = waypoint;
+    groups.back().poses.insert(groups.back().poses.end(), poses.begin(), poses.end());
+  }
+  for (Group& group : groups) std::sort(group.poses.begin(), group.poses.end());
   return groups;
 }
 
-support::Bitset Predictions::subset(const action::MotionPtr& motion, const support::Bitset& members,
-                                    std::size_t waypoint) {
+support::Bitset Predictions::subset(const action::MotionPtr& motion, const support::Bitset& members, std::size_t first,
+                                    std::size_t last) {
   support::Bitset kept(members.size());
   members.for_each([&](std::size_t pose) {
-    if (first_contact(motion, pose) == waypoint) kept.set(pose);
+    const std::size_t at = first_contact(motion, pose);
+    if (at >= first && at <= last) kept.set(pose);
   });
   return kept;
 }

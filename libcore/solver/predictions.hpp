@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <unordered_map>
+#include <vector>
 
 #include "action/motion.hpp"
 #include "support/bitset.hpp"
 
 namespace tactus::solver {
+
+/// Poses of which a motion's outcome says nothing more than that they are first touched at `first` to `last`.
+struct Group {
+  std::size_t first = 0, last = 0;  ///< waypoints; the path's size for those that are not touched
+  std::vector<std::size_t> poses;   ///< ascending
+};
+
+/// As far as a contact tells some poses apart: were `count` of them laid out evenly in so many dimensions, a contact
+/// would take one of these away, and leave count^((d-1)/d). The half of that, so that where poses are few a contact
+/// does not seem to say all there is to know.
+std::size_t least_group(std::size_t count, int dimensions);
 
 /// Where each of a planning call's poses is first touched on each motion, computed once. One thread.
 class Predictions {
@@ -23,12 +34,13 @@ class Predictions {
   /// The same of every pose.
   const std::vector<std::int32_t>& first_contacts(const action::MotionPtr& motion);
 
-  /// The members of a set of poses by their first contact, ascending.
-  std::map<std::size_t, std::vector<std::size_t>> split(const action::MotionPtr& motion,
-                                                        const support::Bitset& members);
+  /// The members of a set of poses by their first contact, ascending; first contacts that few poses share are put
+  /// together with the next until they have `least` poses, but never with those that are not touched.
+  std::vector<Group> split(const action::MotionPtr& motion, const support::Bitset& members, std::size_t least = 1);
 
-  /// Those of a set whose first contact is at `waypoint`.
-  support::Bitset subset(const action::MotionPtr& motion, const support::Bitset& members, std::size_t waypoint);
+  /// Those of a set whose first contact is at `first` to `last`.
+  support::Bitset subset(const action::MotionPtr& motion, const support::Bitset& members, std::size_t first,
+                         std::size_t last);
 
  private:
   struct Row {

@@ -21,6 +21,7 @@ enum class SecondValue { greedy, upper_bound };
 /// What may come of a motion: first contact at a waypoint, or none (`waypoint` is then the path's size).
 struct Outcome {
   std::size_t waypoint = 0;
+  std::size_t last = 0;  ///< the same, or a later one: first contact at a waypoint up to this one
   double probability = 0.0;
   double cost = 0.0;   ///< of the motion up to there, the way to its start and back to the last free waypoint
   bool goal = false;   ///< the successor needs nothing more; on voxels an estimate: it is expected to be handed over
@@ -33,6 +34,7 @@ struct Choice {
   std::vector<Outcome> outcomes;
   double expected_cost() const;  ///< C(b, a)
   double contact_probability() const;
+  double goal_probability() const;
   double information() const;  ///< expected bits by which the outcomes split the belief
 };
 

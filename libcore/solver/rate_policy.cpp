@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "support/rng.hpp"
 
 namespace tactus::solver {
 namespace {
@@ -11,29 +14,36 @@ using action::MotionPtr;
 using geometry::Pose;
 using support::Bitset;
 
-constexpr double fixed_cost = 0.02;      // m, of the rate rule
-constexpr std::size_t few_members = 12;  // that may be tried one after another
+constexpr double least_rate = 1e-9;
+constexpr double fixed_cost = 0.02;       // m, of the rate rule
+constexpr std::size_t few_members = 12;   // that may be tried one after another
+constexpr std::size_t many_members = 30;  // for which the way to a motion counts in its choice
+constexpr double place_pitch = 0.001;     // m
 
-/// Calls `visit(first, last)` for each run of equal first contacts.
-template <typename Pairs, typename Visit>
-void for_each_group(const Pairs& sorted, Visit&& visit) {
-  for (auto first = sorted.begin(); first != sorted.end();) {
-    const auto last = std::find_if(first, sorted.end(), [&](const auto& entry) { return entry.first != first->first; });
-    visit(first, last);
-    first = last;
-  }
+/// To tell apart where the tool is.
+std::uint64_t place_of(const Pose& base_from_tool) {
+  std::uint64_t place = 1;
+  for (int d = 0; d < 3; ++d)
+    place =
+        support::mix(place ^ static_cast<std::uint64_t>(std::llround(base_from_tool.translation()[d] / place_pitch)));
+  return place;
 }
 
 }  // namespace
 
 RatePolicy::RatePolicy(std::shared_ptr<const action::Task> task, Predictions& predictions,
-                       std::vector<MotionPtr> motions, std::vector<Attempt> attempts, std::vector<Bitset> served)
-    : task_(std::move(task)), motions_(std::move(motions)), attempts_(std::move(attempts)), served_(std::move(served)) {
+                       std::vector<MotionPtr> motions, std::vector<Attempt> attempts, std::vector<Bitset> served,
+                       int dimensions)
+    : task_(std::move(task)),
+      motions_(std::move(motions)),
+      attempts_(std::move(attempts)),
+      served_(std::move(served)),
+      dimensions_(dimensions) {
   for (const MotionPtr& motion : motions_) first_contacts_.push_back(&predictions.first_contacts(motion));
 }
 
 double RatePolicy::cost(const Members& members, const Pose& base_from_tool) {
-  const Plan& first = plan(members);
+  const Plan& first = plan(members, base_from_tool);
   return lead(base_from_tool, first.base_from_start) + first.cost;
 }
 
@@ -41,13 +51,14 @@ double RatePolicy::lead(const Pose& base_from_tool, const Pose& base_from_start)
   return task_->options().cost.action + action::transit_cost(*task_, base_from_tool, base_from_start);
 }
 
-const RatePolicy::Plan& RatePolicy::plan(const Members& members) {
+const RatePolicy::Plan& RatePolicy::plan(const Members& members, const Pose& base_from_tool) {
   Bitset set(attempts_.size());
   for (const std::size_t member : members) set.set(member);
-  const support::Hash128 key = set.hash(0);
+  const bool regards_lead = members.size() >= many_members;
+  const support::Hash128 key = set.hash(regards_lead ? place_of(base_from_tool) : 0);
   if (const auto known = plans_.find(key); known != plans_.end()) return known->second;
   Plan best;
-  if (members.size() > 1) best = probing(members);
+  if (members.size() > 1) best = probing(members, regards_lead ? &base_from_tool : nullptr);
   if (members.size() <= few_members || best.cost >= 1e300) {
     const Plan attempts = attempts_at(members);
     if (attempts.cost < best.cost) best = attempts;
@@ -84,43 +95,60 @@ RatePolicy::Plan RatePolicy::attempts_at(const Members& members) const {
   return plan;
 }
 
-/// The members in the order of their first contacts.
-void RatePolicy::split(const std::vector<std::int32_t>& first_contact, const Members& members) {
+/// Calls `visit(waypoint, begin, end)` for each group that a motion's outcome tells apart.
+template <typename Visit>
+void RatePolicy::for_each_group(std::size_t motion, const Members& members, Visit&& visit) {
   sorted_.clear();
-  for (const std::size_t member : members) sorted_.emplace_back(first_contact[member], member);
+  for (const std::size_t member : members) sorted_.emplace_back((*first_contacts_[motion])[member], member);
   std::sort(sorted_.begin(), sorted_.end());
+  const auto untouched = static_cast<std::int32_t>(motions_[motion]->path.size());
+  const auto least = static_cast<std::ptrdiff_t>(least_group(members.size(), dimensions_));
+  for (auto begin = sorted_.begin(); begin != sorted_.end();) {
+    const auto differs = [](std::int32_t at) { return [at](const auto& entry) { return entry.first != at; }; };
+    auto end = std::find_if(begin, sorted_.end(), differs(begin->first));
+    while (end != sorted_.end() && end - begin < least && end->first != untouched)
+      end = std::find_if(end, sorted_.end(), differs(end->first));
+    visit(static_cast<std::size_t>(begin->first), begin, end);
+    begin = end;
+  }
+}
+
+double RatePolicy::cost_to(std::size_t motion, std::size_t waypoint) const {
+  const std::vector<double>& cost = motions_[motion]->cost_to;
+  return cost[std::min(waypoint, cost.size() - 1)];
+}
+
+/// Bits per cost.
+double RatePolicy::rate_of(std::size_t motion, const Members& members, const Pose* base_from_tool) {
+  const auto total = static_cast<double>(members.size());
+  double bits = 0.0, cost = fixed_cost;
+  if (base_from_tool) cost += lead(*base_from_tool, motions_[motion]->base_from_start);
+  for_each_group(motion, members, [&](std::size_t waypoint, auto begin, auto end) {
+    const double share = static_cast<double>(end - begin) / total;
+    bits -= share * std::log2(share);
+    cost += share * cost_to(motion, waypoint);
+  });
+  return bits / cost;
 }
 
 /// The motion with the best rate, and whatever is best then.
-RatePolicy::Plan RatePolicy::probing(const Members& members) {
-  const auto total = static_cast<double>(members.size());
+RatePolicy::Plan RatePolicy::probing(const Members& members, const Pose* base_from_tool) {
   std::size_t best = motions_.size();
-  double highest = 0.0;
-  for (std::size_t m = 0; m < motions_.size(); ++m) {
-    split(*first_contacts_[m], members);
-    if (sorted_.front().first == sorted_.back().first) continue;
-    const std::vector<double>& cost_to = motions_[m]->cost_to;
-    double bits = 0.0, cost = fixed_cost;
-    for_each_group(sorted_, [&](auto first, auto last) {
-      const double share = static_cast<double>(last - first) / total;
-      bits -= share * std::log2(share);
-      cost += share * cost_to[std::min<std::size_t>(static_cast<std::size_t>(first->first), cost_to.size() - 1)];
-    });
-    if (bits / cost > highest) highest = bits / cost, best = m;
-  }
+  double highest = least_rate;
+  for (std::size_t motion = 0; motion < motions_.size(); ++motion)
+    if (const double rate = rate_of(motion, members, base_from_tool); rate > highest) highest = rate, best = motion;
   if (best == motions_.size()) return {};
-  const action::Motion& motion = *motions_[best];
-  split(*first_contacts_[best], members);
   std::vector<std::pair<std::size_t, Members>> groups;
-  for_each_group(sorted_, [&](auto first, auto last) {
-    groups.emplace_back(static_cast<std::size_t>(first->first), Members{});
-    for (auto entry = first; entry != last; ++entry) groups.back().second.push_back(entry->second);
+  for_each_group(best, members, [&](std::size_t waypoint, auto begin, auto end) {
+    Members& group = groups.emplace_back(waypoint, Members{}).second;
+    std::transform(begin, end, std::back_inserter(group), [](const auto& entry) { return entry.second; });
+    std::sort(group.begin(), group.end());
   });
-  Plan plan{motion.base_from_start, 0.0};
+  Plan plan{motions_[best]->base_from_start, 0.0};
   for (const auto& [waypoint, group] : groups) {
-    const double share = static_cast<double>(group.size()) / total;
-    plan.cost += share * (motion.cost_to[std::min(waypoint, motion.cost_to.size() - 1)] +
-                          cost(group, motion.bodies.base_from_body(waypoint - 1, 0)));
+    const double share = static_cast<double>(group.size()) / static_cast<double>(members.size());
+    const Pose& stop = motions_[best]->bodies.base_from_body(waypoint - 1, 0);
+    plan.cost += share * (cost_to(best, waypoint) + cost(group, stop));
   }
   return plan;
 }

@@ -15,16 +15,16 @@ struct Attempt {
 };
 
 /// What a simple policy costs that always ends: the motion with the most information per cost, again and again, until
-/// attempts at the poses that are left, one after another, are cheaper. It chooses among anchored motions, whatever the
-/// robot's configuration, so that a set of poses is weighed once. An upper bound of the value of a belief on these
-/// poses, as far as the ways over the retreat plane and the attempts are free. One thread.
+/// attempts at the poses that are left, one after another, are cheaper. It chooses among anchored motions; where few
+/// poses are left, without regard to where the robot is, so that a set of them is weighed once. An upper bound of the
+/// value of a belief on these poses, as far as the ways over the retreat plane and the attempts are free. One thread.
 class RatePolicy {
  public:
   using Members = std::vector<std::size_t>;  ///< poses, ascending
 
-  /// By pose: the attempt at it, and the poses that it serves.
+  /// By pose: the attempt at it, and the poses that it serves. `dimensions`: of the poses, as for `least_group`.
   RatePolicy(std::shared_ptr<const action::Task> task, Predictions& predictions, std::vector<action::MotionPtr> motions,
-             std::vector<Attempt> attempts, std::vector<support::Bitset> served);
+             std::vector<Attempt> attempts, std::vector<support::Bitset> served, int dimensions);
 
   /// Expected cost until the tool is seated, if the target is at one of these poses (not empty), from where the tool
   /// is.
@@ -35,11 +35,14 @@ class RatePolicy {
     geometry::Pose base_from_start = geometry::Pose::Identity();  ///< of the first motion
     double cost = 1e300;                                          ///< from there on
   };
-  const Plan& plan(const Members& members);
+  const Plan& plan(const Members& members, const geometry::Pose& base_from_tool);
   Plan attempts_at(const Members& members) const;
-  Plan probing(const Members& members);
+  Plan probing(const Members& members, const geometry::Pose* base_from_tool);
   double lead(const geometry::Pose& base_from_tool, const geometry::Pose& base_from_start) const;
-  void split(const std::vector<std::int32_t>& first_contact, const Members& members);
+  template <typename Visit>
+  void for_each_group(std::size_t motion, const Members& members, Visit&& visit);
+  double rate_of(std::size_t motion, const Members& members, const geometry::Pose* base_from_tool);
+  double cost_to(std::size_t motion, std::size_t waypoint) const;
 
   struct HashOf {
     std::size_t operator()(const support::Hash128& h) const { return h.low; }
@@ -49,8 +52,9 @@ class RatePolicy {
   std::vector<const std::vector<std::int32_t>*> first_contacts_;  ///< by motion
   std::vector<Attempt> attempts_;
   std::vector<support::Bitset> served_;
+  int dimensions_;
   std::unordered_map<support::Hash128, Plan, HashOf> plans_;
-  std::vector<std::pair<std::int32_t, std::size_t>> sorted_;  ///< of the last split: first contact, pose
+  std::vector<std::pair<std::int32_t, std::size_t>> sorted_;  ///< by the motion in hand: first contact, pose
 };
 
 }  // namespace tactus::solver

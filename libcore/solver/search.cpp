@@ -31,6 +31,13 @@ double Choice::contact_probability() const {
   return sum;
 }
 
+double Choice::goal_probability() const {
+  double sum = 0.0;
+  for (const Outcome& outcome : outcomes)
+    if (outcome.goal) sum += outcome.probability;
+  return sum;
+}
+
 double Choice::information() const {
   double bits = 0.0;
   for (const Outcome& outcome : outcomes)
@@ -167,7 +174,7 @@ std::optional<std::size_t> Search::best_by(int index, ValueType type, const std:
 }
 
 std::optional<std::size_t> Search::best(int node, const std::vector<bool>& banned) const {
-  return best_by(node, options_.epsilon >= 1.0 ? ValueType::admissible : ValueType::inadmissible, banned);
+  return best_by(node, executed_by(), banned);
 }
 
 int Search::follow(int index, std::size_t choice, std::size_t outcome) {

@@ -36,8 +36,10 @@ class Search {
 
   static constexpr int start = 0;
 
-  /// The best motion at an expanded belief (by the inadmissible values), leaving out the banned ones; none if no motion
-  /// is left. A choice's index.
+  /// The values by which the best motion is found: the inadmissible ones, unless those were never followed.
+  ValueType executed_by() const { return options_.epsilon >= 1.0 ? ValueType::admissible : ValueType::inadmissible; }
+
+  /// The best motion at an expanded belief, leaving out the banned ones; none if no motion is left. A choice's index.
   std::optional<std::size_t> best(int node, const std::vector<bool>& banned = {}) const;
 
   bool expanded(int node) const { return nodes_[node].expanded; }

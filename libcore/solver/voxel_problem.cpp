@@ -139,7 +139,7 @@ class VoxelState : public BeliefState {
     const Motion& motion = *choice.motion;
     const SweptVoxels& swept = problem_->swept(choice.motion);
     VoxelBelief next = voxels_;
-    Bitset feasible = problem_->predictions_.subset(choice.motion, feasible_, outcome.waypoint);
+    Bitset feasible = problem_->predictions_.subset(choice.motion, feasible_, outcome.waypoint, outcome.last);
     if (outcome.waypoint == motion.path.size()) {
       next.remove_free(swept.voxels, swept.voxels.size());
       return std::make_shared<VoxelState>(problem_, motion.path.back(), std::move(next), std::move(feasible));
@@ -230,8 +230,8 @@ class VoxelState : public BeliefState {
   std::vector<double> shares(const MotionPtr& motion) const {
     std::vector<double> result(motion->path.size() + 1, 0.0);
     const auto total = static_cast<double>(feasible_.count());
-    for (const auto& [waypoint, group] : problem_->predictions_.split(motion, feasible_))
-      result[waypoint] = static_cast<double>(group.size()) / total;
+    for (const Group& group : problem_->predictions_.split(motion, feasible_))
+      result[group.first] = static_cast<double>(group.poses.size()) / total;
     return result;
   }
 
@@ -251,7 +251,7 @@ class VoxelState : public BeliefState {
       if (i < waypoints && entered[i] > 0) last = i;
       if (probability[i] < least_probability && i < waypoints) continue;
       Outcome outcome;
-      outcome.waypoint = i;
+      outcome.waypoint = outcome.last = i;
       outcome.probability = probability[i];
       kept += outcome.probability;
       outcome.cost = task.options().cost.action + lead + motion->cost_to[std::min(i, waypoints - 1)];

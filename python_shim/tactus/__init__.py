@@ -19,14 +19,14 @@ from .belief import Belief, Event, Mode, Summary
 from .errors import BadInput, Busy, InvalidArgument, StopOffPath, TactusError, TaskImpossible, WrongScenario
 from .instance import Evaluation, Instance
 from .library import set_log, version
-from .planner import SOLVERS, Planner, Statistics
+from .planner import SOLVERS, Alternative, Outcome, Planner, Statistics
 from .scenario import Body, Scenario, check, pose_from_rpy
 from .world import World
 
 __version__ = version()
 
 __all__ = [
-    "Action", "BadInput", "Belief", "Body", "Busy", "Evaluation", "Event", "Instance", "InvalidArgument", "Mode", "Observation", "Planner", "SOLVERS",
-    "Scenario", "Statistics", "StopOffPath", "Summary", "TactusError", "TaskImpossible", "World", "WrongScenario", "check",
+    "Action", "Alternative", "BadInput", "Belief", "Body", "Busy", "Evaluation", "Event", "Instance", "InvalidArgument", "Mode", "Observation", "Outcome",
+    "Planner", "SOLVERS", "Scenario", "Statistics", "StopOffPath", "Summary", "TactusError", "TaskImpossible", "World", "WrongScenario", "check",
     "pose_from_rpy", "set_log", "version",
 ]

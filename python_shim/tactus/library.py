@@ -78,6 +78,13 @@ class StatisticsStruct(ctypes.Structure):
                 ("total_expansions", c_uint64), ("total_seconds", c_double)]
 
 
+class AlternativeStruct(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("verdict", c_int32), ("outcomes", c_uint32),
+                ("lower_bound", c_double), ("value", c_double), ("motion_cost", c_double), ("information", c_double),
+                ("contact_probability", c_double), ("goal_probability", c_double), ("start", c_double * 3),
+                ("end", c_double * 3)]
+
+
 class WorldOptions(ctypes.Structure):
     _fields_ = [("struct_size", c_uint32), ("fineness", c_int32), ("seed", c_uint64), ("stopping_distance", c_double),
                 ("encoder_error", c_double), ("missed_contacts", c_double), ("false_contacts", c_double)]
@@ -159,6 +166,10 @@ CHECKED = {
     "tactus_planner_cancel": [_planner],
     "tactus_statistics_init": [POINTER(StatisticsStruct), c_size_t],
     "tactus_planner_statistics": [_planner, POINTER(StatisticsStruct)],
+    "tactus_alternative_init": [POINTER(AlternativeStruct), c_size_t],
+    "tactus_planner_alternative_count": [_planner, _size],
+    "tactus_planner_alternative": [_planner, c_size_t, POINTER(AlternativeStruct)],
+    "tactus_planner_alternative_outcomes": [_planner, c_size_t, _doubles, c_size_t, _size],
     "tactus_world_options_init": [POINTER(WorldOptions), c_size_t],
     "tactus_world_create": [_scenario, _doubles, POINTER(WorldOptions), POINTER(_world)],
     "tactus_world_execute": [_world, _action, POINTER(ObservationStruct)],
@@ -182,6 +193,7 @@ PLAIN = {
     "tactus_last_error": (c_char_p, []),
     "tactus_action_kind_name": (c_char_p, [c_int32]),
     "tactus_solver_name": (c_char_p, [c_int32]),
+    "tactus_verdict_name": (c_char_p, [c_int32]),
     "tactus_scenario_destroy": (None, [_scenario]),
     "tactus_belief_destroy": (None, [_belief]),
     "tactus_planner_destroy": (None, [_planner]),

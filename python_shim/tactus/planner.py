@@ -5,9 +5,11 @@ import ctypes
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from . import errors, library
 from .action import Action
-from .library import ActionHandle, Object, PlannerHandle, call, status_of, struct, value
+from .library import ActionHandle, Object, PlannerHandle, call, lib, rows, status_of, struct, value
 
 SOLVERS = ("rtdp-bel", "rtdp-inad", "rtdp-ad", "brtdp-bel", "tbl", "frontier", "rate")
 
@@ -31,6 +33,34 @@ class Statistics:
     total_calls: int      # queries that planned
     total_expansions: int
     total_seconds: float
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What may come of a motion."""
+
+    probability: float
+    cost: float        # of the motion then
+    contact: bool
+    goal: bool         # it reaches the goal; on voxels the hand-over to poses
+    tool: np.ndarray   # where the tool link then stands (3), base frame, m
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """A motion that was weighed. Costs in units of cost; positions of the tool link (3), base frame, m."""
+
+    kind: str                   # "move", "turn", "sweep", "poke" or "insertion"
+    verdict: str                # "chosen", "passed over", "unreachable" or "set aside"
+    lower_bound: float          # admissible value of the motion and all that follows
+    value: float                # inadmissible value of the same; brtdp-bel on poses: upper bound
+    motion_cost: float          # expected, of this motion alone
+    information: float          # expected bits
+    contact_probability: float
+    goal_probability: float     # of outcomes that are the goal
+    start: np.ndarray           # where the motion proper sets out from
+    end: np.ndarray             # where it ends if nothing is touched
+    outcomes: list              # of `Outcome`, in the order along its path; their probabilities sum to one
 
 
 def planner_options(scenario, *, solver=None, seconds=None, expansions=None, epsilon=None, horizon=None, seed=None):
@@ -80,3 +110,18 @@ class Planner(Object):
         call("tactus_planner_statistics", self.handle, ctypes.byref(s))
         return Statistics(s.from_policy != 0, s.expansions, s.seconds, s.lower_bound, s.value, s.total_calls,
                           s.total_expansions, s.total_seconds)
+
+    def alternatives(self):
+        """What was weighed for the last action, in the order in which the solver would have taken it; empty if there was none.
+
+        A list of `Alternative`, the chosen one among them. Asking changes no later answer."""
+        return [self._alternative(i) for i in range(value("tactus_planner_alternative_count", ctypes.c_size_t, self.handle))]
+
+    def _alternative(self, index):
+        a = struct(library.AlternativeStruct, "tactus_alternative_init")
+        call("tactus_planner_alternative", self.handle, index, ctypes.byref(a))
+        outcomes = rows("tactus_planner_alternative_outcomes", self.handle, index, width=7)
+        return Alternative(lib.tactus_action_kind_name(a.kind).decode(), lib.tactus_verdict_name(a.verdict).decode(),
+                           a.lower_bound, a.value, a.motion_cost, a.information, a.contact_probability, a.goal_probability,
+                           np.array(a.start), np.array(a.end),
+                           [Outcome(row[0], row[1], bool(row[2]), bool(row[3]), row[4:]) for row in outcomes])

@@ -75,6 +75,20 @@ AT(tactus_statistics, total_expansions, 48);
 AT(tactus_statistics, total_seconds, 56);
 SIZE(tactus_statistics, 64);
 
+AT(tactus_alternative, struct_size, 0);
+AT(tactus_alternative, kind, 4);
+AT(tactus_alternative, verdict, 8);
+AT(tactus_alternative, outcomes, 12);
+AT(tactus_alternative, lower_bound, 16);
+AT(tactus_alternative, value, 24);
+AT(tactus_alternative, motion_cost, 32);
+AT(tactus_alternative, information, 40);
+AT(tactus_alternative, contact_probability, 48);
+AT(tactus_alternative, goal_probability, 56);
+AT(tactus_alternative, start, 64);
+AT(tactus_alternative, end, 88);
+SIZE(tactus_alternative, 112);
+
 AT(tactus_world_options, struct_size, 0);
 AT(tactus_world_options, fineness, 4);
 AT(tactus_world_options, seed, 8);
@@ -151,6 +165,11 @@ VALUE(TACTUS_SOLVER_BRTDP_BEL, 4);
 VALUE(TACTUS_SOLVER_TBL, 5);
 VALUE(TACTUS_SOLVER_FRONTIER, 6);
 VALUE(TACTUS_SOLVER_RATE, 7);
+
+VALUE(TACTUS_VERDICT_PASSED_OVER, 0);
+VALUE(TACTUS_VERDICT_CHOSEN, 1);
+VALUE(TACTUS_VERDICT_UNREACHABLE, 2);
+VALUE(TACTUS_VERDICT_SET_ASIDE, 3);
 
 VALUE(TACTUS_FORMAT_POMDPX, 1);
 VALUE(TACTUS_FORMAT_POMDP, 2);

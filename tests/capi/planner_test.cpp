@@ -85,6 +85,102 @@ TEST(Planner, CountsWhatItDid) {
   EXPECT_EQ(took.from_policy, 0);
 }
 
+std::size_t alternative_count(const shelf::Planner& planner) {
+  std::size_t count = 99;
+  expect_ok(tactus_planner_alternative_count(planner.get(), &count));
+  return count;
+}
+
+tactus_alternative alternative(const shelf::Planner& planner, std::size_t index) {
+  tactus_alternative made{};
+  expect_ok(tactus_alternative_init(&made, sizeof made));
+  expect_ok(tactus_planner_alternative(planner.get(), index, &made));
+  return made;
+}
+
+std::vector<double> outcomes(const shelf::Planner& planner, std::size_t index) {
+  std::size_t count = 0;
+  expect_ok(tactus_planner_alternative_outcomes(planner.get(), index, nullptr, 0, &count));
+  std::vector<double> rows(7 * count);
+  expect_ok(tactus_planner_alternative_outcomes(planner.get(), index, rows.data(), count, &count));
+  return rows;
+}
+
+TEST(Planner, VerdictsHaveNames) {
+  EXPECT_STREQ(tactus_verdict_name(TACTUS_VERDICT_CHOSEN), "chosen");
+  EXPECT_STREQ(tactus_verdict_name(TACTUS_VERDICT_PASSED_OVER), "passed over");
+  EXPECT_STREQ(tactus_verdict_name(TACTUS_VERDICT_SET_ASIDE), "set aside");
+  EXPECT_STREQ(tactus_verdict_name(TACTUS_VERDICT_UNREACHABLE), "unreachable");
+  EXPECT_STREQ(tactus_verdict_name(4), "unknown");
+}
+
+TEST(Planner, TellsWhatItWeighedBestFirst) {
+  const shelf::Planner planner = shelf::planner();
+  EXPECT_EQ(alternative_count(planner), 0u);
+  const shelf::Action action = shelf::query(planner, shelf::belief());
+  tactus_action_properties is{};
+  expect_ok(tactus_action_properties_init(&is, sizeof is));
+  expect_ok(tactus_action_info(action.get(), &is));
+  ASSERT_GT(alternative_count(planner), 1u);
+  int chosen = 0;
+  for (std::size_t i = 0; i < alternative_count(planner); ++i) {
+    const tactus_alternative weighed = alternative(planner, i);
+    EXPECT_EQ(weighed.struct_size, sizeof weighed);
+    if (i > 0) {
+      EXPECT_LE(alternative(planner, i - 1).value, weighed.value);
+    }
+    if (weighed.verdict != TACTUS_VERDICT_CHOSEN) continue;
+    ++chosen;
+    EXPECT_EQ(weighed.kind, is.kind);
+    EXPECT_EQ(weighed.value, is.expected_cost);
+    EXPECT_EQ(weighed.contact_probability, is.contact_probability);
+  }
+  EXPECT_EQ(chosen, 1);
+}
+
+TEST(Planner, TellsWhatMayComeOfWhatItWeighed) {
+  const shelf::Planner planner = shelf::planner();
+  shelf::query(planner, shelf::belief());
+  for (std::size_t i = 0; i < alternative_count(planner); ++i) {
+    const tactus_alternative weighed = alternative(planner, i);
+    const std::vector<double> rows = outcomes(planner, i);
+    ASSERT_EQ(rows.size(), 7 * weighed.outcomes);
+    double total = 0.0, cost = 0.0, contact = 0.0, goal = 0.0;
+    for (auto row = rows.begin(); row != rows.end(); row += 7) {
+      total += row[0];
+      cost += row[0] * row[1];
+      contact += row[0] * row[2];
+      goal += row[0] * row[3];
+      if (row[2] == 0.0) {
+        EXPECT_TRUE(std::equal(row + 4, row + 7, weighed.end)) << "nothing touched: the tool is at the end";
+      }
+    }
+    EXPECT_NEAR(total, 1.0, 1e-9);
+    EXPECT_NEAR(cost, weighed.motion_cost, 1e-9);
+    EXPECT_NEAR(contact, weighed.contact_probability, 1e-9);
+    EXPECT_NEAR(goal, weighed.goal_probability, 1e-9);
+  }
+}
+
+TEST(Planner, AlternativesOutOfReachAreRefused) {
+  const shelf::Planner planner = shelf::planner();
+  tactus_alternative made{};
+  expect_ok(tactus_alternative_init(&made, sizeof made));
+  std::size_t count = 0;
+  expect_refused(tactus_planner_alternative(planner.get(), 0, &made), TACTUS_INVALID_ARGUMENT, "index");
+  shelf::query(planner, shelf::belief());
+  const std::size_t beyond = alternative_count(planner);
+  expect_refused(tactus_planner_alternative(planner.get(), beyond, &made), TACTUS_INVALID_ARGUMENT, "index");
+  expect_refused(tactus_planner_alternative_outcomes(planner.get(), beyond, nullptr, 0, &count),
+                 TACTUS_INVALID_ARGUMENT, "index");
+  double row[7];
+  expect_refused(tactus_planner_alternative_outcomes(planner.get(), 0, row, 0, &count), TACTUS_BUFFER_TOO_SMALL,
+                 "outcomes");
+  expect_refused(tactus_planner_alternative_count(nullptr, &count), TACTUS_INVALID_ARGUMENT, "planner");
+  made.struct_size = 0;
+  expect_refused(tactus_planner_alternative(planner.get(), 0, &made), TACTUS_STRUCT_SIZE, "alternative");
+}
+
 TEST(Planner, ABeliefOfAnotherScenarioIsRefused) {
   const shelf::Scenario other = shelf::load();
   tactus_action* action = reinterpret_cast<tactus_action*>(8);

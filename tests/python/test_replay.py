@@ -21,6 +21,10 @@ def record():
                "contact": x == 0.9} for x in (0.5, 0.7, 0.9)]
     belief = {"possibly_occupied": 2, "cells": 0, "bits": 1.0, "points": [[1, 0, 0], [1, 0.1, 0.1]]}
     steps = [{"kind": "sweep", "phase": "</script>", "contact": contact, "cost_m": 0.2, "planning_s": 1.0, "belief": belief} for contact in (False, True)]
+    weighed = [{"kind": kind, "verdict": verdict, "value": 0.5, "lower_bound": 0.4, "motion_cost": 0.2, "information_bits": 1.5, "contact_probability": 0.6,
+                "goal_probability": 0.0, "start": [0, 0, 0], "end": [0, 0.5, 0], "outcomes": [[1, 0.2, 0, 0, 0, 0.5, 0]]} for kind, verdict in
+               (("poke", "unreachable"), ("sweep", "chosen"))]
+    steps[0]["why"] = {"weighed": 40, "alternatives": weighed}
     return {"scenario": "small", "bodies": bodies, "true_pose": [1, 0, 0, 0, 0, 0, 1], "frames": frames, "steps": steps}
 
 
@@ -46,6 +50,18 @@ def test_a_record_becomes_a_picture_and_a_page(make, tmp_path):
     data = json.loads(re.search(r"^const run = (.*);$", page, re.MULTILINE).group(1))
     assert data["frames"] == len(make()["frames"])
     assert [body["kind"] for body in data["bodies"]] == ["robot", "tool", "world", "target"]
+
+
+def test_the_page_says_what_an_action_was_chosen_from(tmp_path):
+    (tmp_path / "run.json").write_text(json.dumps(record()))
+    code = "import json, sys, replay; print(json.dumps(replay.page_data(replay.Run(json.load(open(sys.argv[1]))))['steps']))"
+    printed = subprocess.run([sys.executable, "-c", code, str(tmp_path / "run.json")], check=True, capture_output=True, text=True, cwd=REPLAY.parent)
+    explained, silent = json.loads(printed.stdout)
+    assert explained["weighed"] == 40
+    assert [(a["kind"], a["verdict"]) for a in explained["alternatives"]] == [("poke", "unreachable"), ("sweep", "chosen")]
+    assert explained["alternatives"][1]["goal_probability"] == 0.0 and explained["alternatives"][1]["end"] == [0, 0.5, 0]
+    assert "outcomes" not in explained["alternatives"][0]
+    assert silent["alternatives"] == []
 
 
 def test_the_contact_lies_between_tool_and_target(tmp_path):

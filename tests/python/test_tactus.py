@@ -133,6 +133,26 @@ def test_a_belief_tells_its_history_and_its_modes(scenario, action):
     assert sum(mode.mass for mode in belief.modes) == pytest.approx(1.0)
 
 
+def test_a_planner_says_why(scenario):
+    planner, belief = tactus.Planner(scenario, expansions=EXPANSIONS), tactus.Belief(scenario)
+    assert planner.alternatives() == []
+    action = planner.query(belief)
+    weighed = planner.alternatives()
+    assert [a.value for a in weighed] == sorted(a.value for a in weighed)
+    chosen, = (a for a in weighed if a.verdict == "chosen")
+    assert (chosen.kind, chosen.value) == (action.kind, action.expected_cost)
+    assert chosen.start.shape == chosen.end.shape == (3,)
+    for a in weighed:
+        assert sum(o.probability for o in a.outcomes) == pytest.approx(1.0)
+        assert sum(o.probability * o.cost for o in a.outcomes) == pytest.approx(a.motion_cost)
+        assert sum(o.probability for o in a.outcomes if o.goal) == pytest.approx(a.goal_probability)
+        assert all(o.tool.shape == (3,) for o in a.outcomes)
+    unasked = tactus.Planner(scenario, expansions=EXPANSIONS)
+    unasked.query(belief)
+    belief.step(action, tactus.Observation(False, action.waypoints[-1]))
+    assert planner.query(belief).id == unasked.query(belief).id
+
+
 def test_an_imperfect_robot_is_the_same_for_the_same_seed(scenario, action):
     def seen(seed):
         world = tactus.World(scenario, scenario.sample_pose(1), seed=seed, stopping_distance=0.002, encoder_error=0.0001)
@@ -198,3 +218,13 @@ def check_record(record, trial):
     assert sum(frame["contact"] for frame in record["frames"]) == trial["contacts"]
     for step in record["steps"]:
         assert len(step["belief"]["points"]) <= 3000
+        check_why(step)
+
+
+def check_why(step):
+    told = step["why"]["alternatives"]
+    assert 1 <= len(told) <= min(6, step["why"]["weighed"])
+    assert [a["kind"] for a in told if a["verdict"] == "chosen"] == [step["kind"]]
+    assert all(a["verdict"] in ("unreachable", "set aside") for a in told[:[a["verdict"] for a in told].index("chosen")])
+    for a in told:
+        assert sum(outcome[0] for outcome in a["outcomes"]) == pytest.approx(1.0, abs=1e-3)
