@@ -151,7 +151,7 @@ TACTUS_API tactus_status tactus_belief_contains(const tactus_belief* belief, con
 
 typedef int32_t tactus_likelihood;
 
-/** How the outcomes of an action are weighed on voxels; a scenario's `belief.likelihood` says which one planners use. */
+/** How the outcomes of an action are weighed on voxels; planners do it as the scenario's `belief.likelihood` says. */
 enum {
   TACTUS_LIKELIHOOD_PAPER = 1,     /**< the paper's equations */
   TACTUS_LIKELIHOOD_CALIBRATED = 2 /**< of sampled feasible poses, the share that is first touched at each waypoint; the
