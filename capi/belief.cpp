@@ -3,6 +3,7 @@
 
 #include "belief/modes.hpp"
 #include "handles.hpp"
+#include "solver/forecast.hpp"
 
 using namespace tactus;
 using namespace tactus::capi;
@@ -15,6 +16,8 @@ static_assert(TACTUS_PHASE_VOXELS == static_cast<int>(belief::Phase::voxels) &&
               TACTUS_PHASE_POSES == static_cast<int>(belief::Phase::poses));
 static_assert(TACTUS_HEALTH_GOOD == static_cast<int>(belief::Health::good) &&
               TACTUS_HEALTH_CONTRADICTED == static_cast<int>(belief::Health::contradicted));
+static_assert(TACTUS_LIKELIHOOD_PAPER == static_cast<int>(belief::Likelihood::paper) &&
+              TACTUS_LIKELIHOOD_CALIBRATED == static_cast<int>(belief::Likelihood::calibrated));
 
 tactus_belief_options options_of(belief::Kind kind) { return {0, static_cast<tactus_belief_kind>(kind)}; }
 
@@ -22,6 +25,12 @@ belief::Kind kind_from(const tactus_belief_options& options) {
   if (options.kind != TACTUS_BELIEF_HIERARCHICAL && options.kind != TACTUS_BELIEF_PARTICLES)
     reject("options.kind", std::to_string(options.kind), "TACTUS_BELIEF_HIERARCHICAL or TACTUS_BELIEF_PARTICLES");
   return static_cast<belief::Kind>(options.kind);
+}
+
+belief::Likelihood likelihood_from(tactus_likelihood likelihood) {
+  if (likelihood != TACTUS_LIKELIHOOD_PAPER && likelihood != TACTUS_LIKELIHOOD_CALIBRATED)
+    reject("likelihood", std::to_string(likelihood), "TACTUS_LIKELIHOOD_PAPER or TACTUS_LIKELIHOOD_CALIBRATED");
+  return static_cast<belief::Likelihood>(likelihood);
 }
 
 tactus_summary summary_of(const belief::Summary& from) {
@@ -210,6 +219,21 @@ tactus_status tactus_belief_contains(const tactus_belief* belief, const double p
   return guarded(__func__, [&] {
     const Held held(belief);
     required(contained, "contained") = held.belief.contains(capi::pose_from(pose, "pose")) ? 1 : 0;
+  });
+}
+
+tactus_status tactus_belief_forecast(const tactus_belief* belief, const tactus_action* action,
+                                     tactus_likelihood likelihood, uint64_t seed, double* probabilities,
+                                     size_t capacity, size_t* count) noexcept {
+  return guarded(__func__, [&] {
+    const Held held(belief);
+    check_same(belief->scenario, required(action, "action").scenario, "action");
+    const belief::Likelihood chosen = likelihood_from(likelihood);
+    double* out = room_for(action->action->path.size() + 1, probabilities, capacity, count, "probabilities");
+    if (out == nullptr) return;
+    support::Rng rng(seed);
+    const std::vector<double> forecast = solver::forecast(held.belief, *action->action, chosen, rng);
+    std::copy(forecast.begin(), forecast.end(), out);
   });
 }
 

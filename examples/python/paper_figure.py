@@ -23,7 +23,7 @@ def seconds_a_belief(root, scenario, particles):
     """To weigh every action at the prior with so many poses drawn from it; the motions themselves are there already."""
     folder = root / "examples" / "scenarios"
     text = (folder / f"{scenario}.yaml").read_text()
-    loaded = tactus.Scenario.parse(with_particles(text, particles), folder)
+    loaded = tactus.Scenario.parse(with_belief(text, "particles", particles), folder)
     belief = tactus.Belief(loaded, kind="particles")
     planner = tactus.Planner(loaded, solver="tbl", expansions=1, seed=1)
     planner.query(belief)
@@ -35,13 +35,13 @@ def query_seconds(planner, belief):
     return planner.statistics.seconds
 
 
-def with_particles(text, particles):
-    """The scenario's text with this number for belief.particles."""
-    kept = [line for line in text.splitlines() if not line.strip().startswith("particles:")]
+def with_belief(text, key, value):
+    """The scenario's text with another value for a key of its belief."""
+    kept = [line for line in text.splitlines() if not line.strip().startswith(f"{key}:")]
     if "belief:" not in kept:
         kept.append("belief:")
     at = kept.index("belief:") + 1
-    return "\n".join([*kept[:at], f"  particles: {particles}", *kept[at:]]) + "\n"
+    return "\n".join([*kept[:at], f"  {key}: {value}", *kept[at:]]) + "\n"
 
 
 def measured(folder, scenario):

@@ -149,6 +149,27 @@ TACTUS_API tactus_status tactus_belief_is_goal(const tactus_belief* belief, int3
 TACTUS_API tactus_status tactus_belief_contains(const tactus_belief* belief, const double pose[7],
                                                 int32_t* contained) TACTUS_NOEXCEPT;
 
+typedef int32_t tactus_likelihood;
+
+/** How the outcomes of an action are weighed on voxels; planners do it as the scenario's `belief.likelihood` says. */
+enum {
+  TACTUS_LIKELIHOOD_PAPER = 1,     /**< the paper's equations */
+  TACTUS_LIKELIHOOD_CALIBRATED = 2 /**< of sampled feasible poses, the share that is first touched at each waypoint; the
+                                        paper's where fewer than ten are found */
+};
+
+/**
+ * What the belief expects of an action that begins where the robot is: by waypoint the probability that the first
+ * contact is there, and last that there is none; they sum to one. In the pose phase it is the share of poses drawn for
+ * planning, whichever `likelihood`. `seed`: of the poses drawn. `probabilities`: double (waypoints + 1). Takes about as
+ * long as to begin a plan.
+ *
+ * TACTUS_INVALID_ARGUMENT (an unknown likelihood), TACTUS_WRONG_SCENARIO.
+ */
+TACTUS_API tactus_status tactus_belief_forecast(const tactus_belief* belief, const tactus_action* action,
+                                                tactus_likelihood likelihood, uint64_t seed, double* probabilities,
+                                                size_t capacity, size_t* count) TACTUS_NOEXCEPT;
+
 /* --- keeping it */
 
 /** The whole belief as bytes, with a version and a checksum. `bytes`: uint8_t (count). */

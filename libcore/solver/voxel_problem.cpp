@@ -152,6 +152,12 @@ class VoxelState : public BeliefState {
                                         std::move(feasible));
   }
 
+  /// By waypoint, the probability that the first contact is there, and last that there is none.
+  std::vector<double> forecast(const MotionPtr& motion) const {
+    const SweptVoxels& swept = problem_->swept(motion);
+    return forecast(motion, swept, entered_by(swept));
+  }
+
  private:
   const VoxelGrid& grid() const { return voxels_.model().grid; }
   bool done() const { return count_ <= problem_->model_->options.delta; }
@@ -161,14 +167,22 @@ class VoxelState : public BeliefState {
     return std::max(0.0, box.distance(base_from_tool.translation()) - problem_->tool_reach_);
   }
 
-  /// S counts what a no-contact outcome would remove.
   Choice weigh(const MotionPtr& motion, const BoxCounts& counts) const {
     const SweptVoxels& swept = problem_->swept(motion);
+    const std::vector<std::uint32_t> entered = entered_by(swept);
+    return choice_of(motion, forecast(motion, swept, entered), swept, entered, counts);
+  }
+
+  std::vector<double> forecast(const MotionPtr& motion, const SweptVoxels& swept,
+                               const std::vector<std::uint32_t>& entered) const {
+    return calibrated() ? shares(motion) : first_contact_probabilities(likelihoods(swept, entered));
+  }
+
+  /// How many voxels each waypoint's S counts: those that a no-contact outcome would remove.
+  std::vector<std::uint32_t> entered_by(const SweptVoxels& swept) const {
     std::vector<std::uint32_t> entered = contact::entered_of(swept, voxels_.possibly_occupied());
     entered.front() = 0;  // the robot is there already
-    const std::vector<double> probability =
-        calibrated() ? shares(motion) : first_contact_probabilities(likelihoods(swept, entered));
-    return choice_of(motion, probability, swept, entered, counts);
+    return entered;
   }
 
   /// Calls `visit(voxel)` for S(q_i, a) n PO.
@@ -288,6 +302,11 @@ BeliefStatePtr VoxelProblem::start(const JointVector& q, const VoxelBelief& voxe
   }
   cost_per_bit_ = greedy_cost_per_bit(cost, gained, least_cost_per_bit_);
   return state;
+}
+
+std::vector<double> VoxelProblem::forecast(const VoxelBelief& voxels, const MotionPtr& motion) {
+  const Bitset all(predictions_.poses().size(), true);
+  return VoxelState(shared_from_this(), motion->path.front(), voxels, all).forecast(motion);
 }
 
 const SweptVoxels& VoxelProblem::swept(const MotionPtr& motion) {

@@ -33,6 +33,10 @@ class VoxelProblem : public std::enable_shared_from_this<VoxelProblem> {
 
   BeliefStatePtr start(const robot::JointVector& q, const belief::VoxelBelief& voxels);
 
+  /// By waypoint of a motion from where the robot is, the probability that the first contact is there, and last that
+  /// there is none.
+  std::vector<double> forecast(const belief::VoxelBelief& voxels, const action::MotionPtr& motion);
+
  private:
   friend class VoxelState;
   const contact::SweptVoxels& swept(const action::MotionPtr& motion);

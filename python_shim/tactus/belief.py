@@ -10,6 +10,7 @@ from . import library
 from .library import BeliefHandle, Object, call, lib, pointer, rows, struct, value, vector
 
 KINDS = {"hierarchical": 1, "particles": 2}
+LIKELIHOODS = {"paper": 1, "calibrated": 2}
 PHASES = {1: "voxels", 2: "poses"}
 
 
@@ -132,6 +133,13 @@ class Belief(Object):
     def contains(self, pose):
         """Whether the target may have this pose (7), as far as is known."""
         return bool(value("tactus_belief_contains", ctypes.c_int32, self.handle, pointer(vector(pose, 7, "pose"))))
+
+    def forecast(self, action, likelihood="calibrated", seed=0):
+        """What is expected of an action that begins where the robot is (waypoints + 1): the probability that the first contact is at each waypoint, and last that there is none.
+
+        On voxels by the "paper"'s equations or the "calibrated" likelihood, the share of feasible poses (drawn with ``seed``); on poses
+        their share. Raises `InvalidArgument`, `WrongScenario`."""
+        return rows("tactus_belief_forecast", self.handle, action.handle, LIKELIHOODS.get(likelihood, 0), seed)
 
     def save(self):
         """The whole belief as bytes."""

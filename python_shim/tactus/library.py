@@ -156,6 +156,7 @@ CHECKED = {
     "tactus_belief_stops": [_belief, _doubles, c_size_t, _size],
     "tactus_belief_is_goal": [_belief, _flag],
     "tactus_belief_contains": [_belief, _doubles, _flag],
+    "tactus_belief_forecast": [_belief, _action, c_int32, c_uint64, _doubles, c_size_t, _size],
     "tactus_belief_save": [_belief, _bytes, c_size_t, _size],
     "tactus_belief_restore": [_scenario, _bytes, c_size_t, POINTER(_belief)],
     "tactus_solver_from_name": [c_char_p, _flag],

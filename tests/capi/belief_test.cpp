@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <atomic>
 #include <cstring>
+#include <numeric>
 #include <thread>
 
 #include "capi/shelf.hpp"
@@ -145,6 +146,33 @@ TEST(Belief, TellsItsHistoryAndItsModes) {
   ASSERT_EQ(count, 1u);
   EXPECT_NEAR(mode[0], 1.0, 1e-12);
   EXPECT_NEAR(mode[8], summary(belief).extent[1], 1e-12);
+}
+
+std::vector<double> forecast(const shelf::Belief& belief, tactus_likelihood likelihood, std::uint64_t seed = 1) {
+  std::size_t count = 0;
+  expect_ok(tactus_belief_forecast(belief.get(), shelf::first_action(), likelihood, seed, nullptr, 0, &count));
+  std::vector<double> probabilities(count);
+  expect_ok(tactus_belief_forecast(belief.get(), shelf::first_action(), likelihood, seed, probabilities.data(), count,
+                                   &count));
+  return probabilities;
+}
+
+TEST(Belief, ForecastsAnActionByEitherLikelihood) {
+  const shelf::Belief belief = shelf::belief();
+  for (const tactus_likelihood likelihood : {TACTUS_LIKELIHOOD_PAPER, TACTUS_LIKELIHOOD_CALIBRATED}) {
+    const std::vector<double> expected = forecast(belief, likelihood);
+    EXPECT_EQ(expected.size(), shelf::waypoints(shelf::first_action()).size() / 6 + 1);
+    EXPECT_NEAR(std::accumulate(expected.begin(), expected.end(), 0.0), 1.0, 1e-9);
+    EXPECT_EQ(forecast(belief, likelihood), expected);
+  }
+  EXPECT_NE(forecast(belief, TACTUS_LIKELIHOOD_PAPER), forecast(belief, TACTUS_LIKELIHOOD_CALIBRATED));
+  const shelf::Belief poses = shelf::belief(shelf::scenario(), TACTUS_BELIEF_PARTICLES);
+  EXPECT_EQ(forecast(poses, TACTUS_LIKELIHOOD_PAPER), forecast(poses, TACTUS_LIKELIHOOD_CALIBRATED));
+  std::size_t count = 0;
+  expect_refused(tactus_belief_forecast(belief.get(), shelf::first_action(), 3, 1, nullptr, 0, &count),
+                 TACTUS_INVALID_ARGUMENT, "likelihood");
+  expect_refused(tactus_belief_forecast(belief.get(), nullptr, 1, 1, nullptr, 0, &count), TACTUS_INVALID_ARGUMENT,
+                 "action");
 }
 
 TEST(Belief, AStopWithoutContactMidwayIsLegal) {

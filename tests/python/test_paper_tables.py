@@ -49,7 +49,7 @@ def test_it_compares_scenarios_that_are_there():
     ("limits: {}\n", "limits: {}\nbelief:\n  particles: 7\n"),
 ])
 def test_a_scenario_with_another_number_of_particles(text, expected):
-    assert paper_figure.with_particles(text, 7) == expected
+    assert paper_figure.with_belief(text, "particles", 7) == expected
 
 
 def test_the_figure_is_measured_once_and_drawn(tmp_path, monkeypatch):
