@@ -25,6 +25,7 @@ constexpr double stops_per_waypoint = 8.0;  // that can be told apart
 constexpr std::size_t few_cells = 400;      // enough to tell what an observation left out would leave possible
 constexpr std::size_t few_at_first = 1u << 16;
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
+constexpr std::size_t tries_per_pose = 2;     // of those that come near, to agree with the history
 
 /// How unlikely it is to be stopped just there by a contact that is none, in bits: anywhere else on the way would have
 /// been as likely. A contact that is missed has no such choice.
@@ -178,12 +179,17 @@ bool Belief::is_goal() const {
   });
 }
 
-std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng) const {
+std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const {
   std::vector<Pose> poses;
   const double radius = model_->voxels->grid.half_diagonal();
-  for (std::size_t i = 0; i < samples_per_pose * count && poses.size() < count; ++i) {
+  const auto lacks = [&] { return poses.size() < count && deadline.used_fraction() < 0.5; };
+  std::size_t tried = 0;
+  for (std::size_t i = 0; i < samples_per_pose * count && tried < tries_per_pose * count && lacks(); ++i) {
     const Pose pose = task().scene().prior.sample(rng);
-    if (may_reproduce(task(), history_, pose, radius)) poses.push_back(pose);
+    if (!may_reproduce(task(), history_, pose, radius)) continue;
+    ++tried;
+    if (const auto found = projected(task(), history_, geometry::pose_vector(pose), least_near))
+      poses.push_back(geometry::pose_from(found->pose));
   }
   return poses;
 }

@@ -96,9 +96,11 @@ class Belief {
   std::vector<Pose> draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known = {},
                          const support::Deadline& deadline = support::Deadline::unlimited()) const;
 
-  /// Phase 1: up to `count` poses drawn from the prior that may have given the history if moved by no more than half a
-  /// voxel's diagonal. Fewer, or none, where they are rare.
-  std::vector<Pose> draw_feasible(std::size_t count, support::Rng& rng) const;
+  /// Phase 1: up to `count` poses drawn from the prior and brought into agreement with the history, to a millimetre at
+  /// least, from no farther away than half a voxel's diagonal or so. Fewer, or none, where they are rare. Looks no
+  /// further once half of a budget in seconds is used up.
+  std::vector<Pose> draw_feasible(std::size_t count, support::Rng& rng,
+                                  const support::Deadline& deadline = support::Deadline::unlimited()) const;
 
   Summary summary() const;
 

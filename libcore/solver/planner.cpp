@@ -12,6 +12,7 @@
 namespace tactus::solver {
 namespace {
 
+constexpr std::uint64_t own_stream = 0x706c616e;  // apart from whatever else begins with the same seed
 constexpr double noticeable_bits = 0.1;
 constexpr int patience = 3;               // queries in which the belief hardly shrank
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
@@ -33,7 +34,7 @@ Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOption
     : model_(std::move(model)),
       options_(options),
       library_(std::make_shared<action::ActionLibrary>(*model_->task)),
-      rng_(options.seed) {
+      rng_(support::mix(options.seed ^ own_stream)) {
   check(options_);
 }
 
@@ -128,7 +129,7 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   if (belief.phase() == belief::Phase::voxels) {
     std::vector<geometry::Pose> feasible;
     if (model_->options.likelihood == belief::Likelihood::calibrated)
-      feasible = belief.draw_feasible(model_->options.particles, rng_);
+      feasible = belief.draw_feasible(model_->options.particles, rng_, deadline);
     start = std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)
                 ->start(belief.configuration(), belief.voxels());
   } else {
