@@ -16,7 +16,7 @@ CellBelief::CellBelief(const Task& task, const CellOptions& options) : options_(
 
 /// A list takes over once its cells may be split.
 void CellBelief::list_when_few() {
-  if (!grid_ || 2 * grid_->size() > options_.most) return;
+  if (!grid_ || grid_->size() > options_.most) return;
   cells_ = cells();
   grid_.reset();
 }
@@ -178,14 +178,14 @@ PoseVector CellBelief::draw_in(const Cell& cell, support::Rng& rng) const {
   return v;
 }
 
-/// With the coarsest ones split, and the halves that can't have given the history left out.
+/// With the coarsest ones split, up to `most` of them, and the halves that can't have given the history left out.
 std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
-                                                 const std::vector<Cell>& cells) const {
+                                                 const std::vector<Cell>& cells, std::size_t most) const {
   double coarsest = 0.0;
   for (const Cell& cell : cells) coarsest = std::max(coarsest, radius(cell));
   std::vector<Cell> candidates, kept;
   for (const Cell& cell : cells) {
-    if (radius(cell) > 0.8 * coarsest && may_split(cell))
+    if (radius(cell) > 0.8 * coarsest && may_split(cell) && candidates.size() < 2 * most)
       split(cell, candidates);
     else
       kept.push_back(cell);
@@ -217,7 +217,7 @@ std::vector<Cell> CellBelief::draw_parts(const Task& task, const std::vector<Tra
     while (parts.size() < count) parts.push_back(draw_cell(rng));
   const auto is_coarse = [&](const Cell& part) { return radius(part) > wanted; };
   while (std::any_of(parts.begin(), parts.end(), is_coarse) && deadline.used_fraction() < 0.5) {
-    parts = halves_of_coarsest(task, history, parts);
+    parts = halves_of_coarsest(task, history, parts, parts.size());
     if (parts.size() > 2 * count) parts = thinned(parts, count, rng);
   }
   return parts;
@@ -226,9 +226,10 @@ std::vector<Cell> CellBelief::draw_parts(const Task& task, const std::vector<Tra
 bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
                         const std::function<bool(const CellBelief&)>& enough) {
   const auto is_coarse = [this](const Cell& cell) { return may_split(cell); };
-  while (!grid_ && 2 * cells_.size() <= options_.most && !(enough && enough(*this)) &&
+  const std::size_t least_room = std::max<std::size_t>(1, options_.most / 16);
+  while (!grid_ && cells_.size() + least_room <= options_.most && !(enough && enough(*this)) &&
          std::any_of(cells_.begin(), cells_.end(), is_coarse)) {
-    std::vector<Cell> kept = halves_of_coarsest(task, history, cells_);
+    std::vector<Cell> kept = halves_of_coarsest(task, history, cells_, options_.most - cells_.size());
     if (kept.empty()) return false;
     cells_ = std::move(kept);
     weigh();

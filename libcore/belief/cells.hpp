@@ -22,7 +22,7 @@ struct Cell {
 struct CellOptions {
   double position = 0.004;               ///< initial full width, m
   double angle = 0.06;                   ///< initial full width, rad
-  std::size_t most = 20000;              ///< cells are split while there are fewer than half of these
+  std::size_t most = 20000;              ///< cells are split while there are fewer than these
   std::size_t most_at_first = 1u << 21;  ///< initial cells are widened until there are no more than these
   double finest_radius = 0.00025;        ///< m: no cell with a smaller radius is split
 };
@@ -56,7 +56,7 @@ class CellBelief {
   /// any are left; if not, nothing is changed.
   bool update(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes = {});
 
-  /// Splits cells, the coarsest first, while they are few, and tests the new ones against the whole history. False (and
+  /// Splits cells, the coarsest first, as long as there is room for more, and tests the new ones against the whole history. False (and
   /// unchanged from there on) if that would leave none. Stops early when `enough` says so.
   bool refine(const Task& task, const std::vector<Trace>& history,
               const std::function<bool(const CellBelief&)>& enough = {});
@@ -80,7 +80,7 @@ class CellBelief {
   bool may_split(const Cell& cell) const { return radius(cell) > options_.finest_radius; }
   void split(const Cell& cell, std::vector<Cell>& halves) const;
   std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
-                                       const std::vector<Cell>& cells) const;
+                                       const std::vector<Cell>& cells, std::size_t most) const;
   bool may_reproduce(const Task& task, const std::vector<Trace>& history, Cell& cell) const;
   std::vector<Cell> thinned(const std::vector<Cell>& cells, std::size_t count, support::Rng& rng) const;
   void list_when_few();

@@ -101,7 +101,8 @@ class ToyState : public solver::BeliefState {
       for (const auto& [probability, cost, to] : move) {
         const bool done = to == Toy::goal;
         result.back().outcomes.push_back(
-            {count++, probability, cost, done, done ? Values{} : toy_->heuristic[static_cast<std::size_t>(to)]});
+            {count, count, probability, cost, done, done ? Values{} : toy_->heuristic[static_cast<std::size_t>(to)]});
+        ++count;
       }
     }
     return result;
