@@ -249,11 +249,14 @@ std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::
       if (lacks(count)) drawn.add(agreeing(part, rng));
   for (std::size_t tried = 0; tried < count && lacks(least) && drawn.size() > 0; ++tried)
     drawn.add(agreeing(beside(drawn.any(rng), rng)));
+  const std::size_t unproved = is_hard ? count / unproved_share : 0;
   std::vector<Pose> poses;
-  for (const PoseVector& v : drawn.exact) poses.push_back(geometry::pose_from(v));
-  for (std::size_t i = 0; i < drawn.near.size() && poses.size() < count; ++i)
-    if (const Pose pose = geometry::pose_from(drawn.near[i]); contains(pose)) poses.push_back(pose);
-  for (std::size_t i = 0; (is_hard && i < count / unproved_share) || poses.size() < least; ++i)
+  for (const PoseVector& v : drawn.exact)
+    if (poses.size() + unproved < count) poses.push_back(geometry::pose_from(v));
+  for (const PoseVector& v : drawn.near)
+    if (const Pose pose = geometry::pose_from(v); poses.size() + unproved < count && contains(pose))
+      poses.push_back(pose);
+  for (std::size_t i = 0; i < unproved || poses.size() < least; ++i)
     poses.push_back(geometry::pose_from(cells_->draw_in(cells_->draw_cell(rng), rng)));
   return poses;
 }

@@ -231,7 +231,7 @@ TEST(Successors, HoldEachPoseOnceAndStandAtTheLastFreeWaypoint) {
 
 TEST(Successors, NeedNothingMoreJustWhereTheOutcomeIsTheGoal) {
   std::array<int, 2> goals{};
-  for_random_beliefs(6, 8, [&](const Tracked& at, const std::vector<Choice>& choices, Rng&) {
+  for_random_beliefs(16, 20, [&](const Tracked& at, const std::vector<Choice>& choices, Rng&) {
     for (const Choice& choice : choices)
       for (const Outcome& outcome : choice.outcomes) {
         const action::Motion& motion = *choice.motion;
