@@ -89,18 +89,22 @@ std::array<double, 3> shares_above_the_middle(const std::vector<Cell>& parts) {
   return shares;
 }
 
+/// Of few, drawn from cells drawn by lot; and of as many as there are cells, left out by lot once these are split.
 TEST(Parts, AreDrawnFromEachHalfByItsShareOfAllThereAre) {
+  constexpr double radius = 0.0016;
   Rng rng(4);
   for (const std::uint64_t seed : {0u, 21u, 22u, 23u, 24u, 25u}) {
     Episode episode(model(), seed);
     for (int i = 0; seed > 0 && i < 2; ++i) episode.step();
-    const std::array<double, 3> wanted = shares_above_the_middle(draw(episode.belief, all, 0.0025, rng));
-    std::vector<Cell> drawn;
-    for (int i = 0; i < 60; ++i)
-      for (const Cell& part : draw(episode.belief, 20, 0.0025, rng)) drawn.push_back(part);
-    const std::array<double, 3> found = shares_above_the_middle(drawn);
-    for (std::size_t d = 0; d < 3; ++d)
-      EXPECT_NEAR(found[d], wanted[d], 0.08) << "seed " << seed << ", dimension " << d;
+    const std::array<double, 3> wanted = shares_above_the_middle(draw(episode.belief, all, radius, rng));
+    for (const std::size_t count : {std::size_t{20}, episode.belief.cells().size()}) {
+      std::vector<Cell> drawn;
+      while (drawn.size() < 1200)
+        for (const Cell& part : draw(episode.belief, count, radius, rng)) drawn.push_back(part);
+      const std::array<double, 3> found = shares_above_the_middle(drawn);
+      for (std::size_t d = 0; d < 3; ++d)
+        EXPECT_NEAR(found[d], wanted[d], 0.08) << "seed " << seed << ", dimension " << d << ", " << count;
+    }
   }
 }
 
