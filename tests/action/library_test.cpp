@@ -86,6 +86,47 @@ TEST(Library, TheWayOutOfTheTargetIsStraightBack) {
   }
 }
 
+/// How far the tool is past where a motion's start has it, along the search frame's axis.
+double past(const JointVector& start, const JointVector& q) {
+  const Vector3 axis = task().frame().base_from_search.linear().col(2);
+  return axis.dot(task().base_from_tool(q).translation() - task().base_from_tool(start).translation());
+}
+
+/// A random walk of small motions from near the target, backwards.
+motion::JointPath random_way_back(ActionLibrary& library, Rng& rng) {
+  const MotionPtr insertion = action::insertion(task(), task().scene().prior.sample(rng), task().home());
+  motion::JointPath way = insertion->path;
+  for (int i = 0; i < 4; ++i) {
+    const std::vector<MotionPtr> near = library.primitives_at(way.back());
+    if (!near.empty()) way = action::joined(std::move(way), near[rng.below(near.size())]->path);
+  }
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+TEST(Library, BeginsWithTheWayBackAsFarAsTheRetreatPlane) {
+  Rng rng(2);
+  ActionLibrary library(task());
+  const std::vector<MotionPtr> probes = action::probes(task(), task().frame().region, task().home());
+  int bent = 0;
+  for (int i = 0; i < 24; ++i) {
+    const motion::JointPath way = random_way_back(library, rng);
+    const MotionPtr motion = i % 3 == 0 ? action::insertion(task(), task().scene().prior.sample(rng), way.front())
+                                        : probes[rng.below(probes.size())];
+    const JointVector& start = motion->path.front();
+    const auto action = library.realise(way.front(), *motion, Deadline::unlimited(), way);
+    ASSERT_TRUE(action) << i;
+    ASSERT_NO_FATAL_FAILURE(expect_executable(*action, way.front(), *motion)) << i;
+    std::size_t followed = 0;
+    while (followed <= action->lead && followed < way.size() && action->path[followed] == way[followed]) ++followed;
+    ASSERT_GT(followed, 0u);
+    EXPECT_TRUE(followed == way.size() || past(start, way[followed - 1]) <= 1e-6) << i;
+    const auto straight = library.realise(way.front(), *motion, Deadline::unlimited());
+    bent += straight && straight->path != action->path;
+  }
+  EXPECT_GT(bent, 5);
+}
+
 TEST(Library, GoesRoundWhatBlocksTheStraightWay) {
   const JointVector behind_the_post = joints({0.46, 0.20, 0.0, 0.0, 0.0, 0.0});
   ASSERT_TRUE(task().known_world().is_free(behind_the_post));

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "belief/plain_world.hpp"
+#include "belief/episode.hpp"
 
 /// What holds of cells whatever is observed.
 namespace tactus::test {
@@ -55,15 +55,10 @@ double target_reach() {
 /// A few observed actions; calls `after` with the belief behind each.
 template <typename After>
 void observe(std::uint64_t seed, int actions, After after) {
-  Rng rng(seed);
-  action::ActionLibrary library(task());
-  const PoseVector truth = random_pose(task().scene().prior, rng);
-  const PlainWorld world(task(), geometry::pose_from(truth));
-  Belief belief(model(), task().scene().start);
+  Episode episode(model(), seed);
   for (int i = 0; i < actions; ++i) {
-    const action::Action action = random_action(task(), library, belief.configuration(), rng);
-    belief.step(action, world.execute(action));
-    after(belief, truth);
+    episode.step();
+    after(episode.belief, episode.truth);
   }
 }
 

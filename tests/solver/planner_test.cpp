@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "belief/plain_world.hpp"
+#include "solver/forecast.hpp"
 #include "support/error.hpp"
 
 /// A planner as its callers see it: options, budgets, answers, and the policy it follows.
@@ -281,6 +282,66 @@ TEST(Progress, IsNotLostByAskingAgain) {
     }
   }
   EXPECT_GT(small, 0);
+}
+
+/// Where two ways part.
+std::size_t in_common(const motion::JointPath& a, const motion::JointPath& b) {
+  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
+}
+
+double past_plane(const JointVector& q, const JointVector& start) {
+  const Vector3 axis = task()->frame().base_from_search.linear().col(2);
+  return axis.dot(task()->base_from_tool(q).translation() - task()->base_from_tool(start).translation());
+}
+
+/// A robot that is halted again and again learns nothing: then it goes back the way it came, and sets out anew.
+TEST(Stuck, GoesBackAsItCameAndSetsOutFromTheRetreatPlane) {
+  int stuck = 0;
+  for (const std::uint64_t seed : {10u, 11u, 12u}) {
+    Rng rng(seed);
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(6));
+    while (belief.history().empty() || !belief.history().back().contact) {
+      const Answer answer = planner.query(belief);
+      ASSERT_TRUE(answer.action);
+      belief.step(*answer.action, world.execute(*answer.action));
+    }
+    for (int i = 0; i < 8; ++i) {
+      const Answer answer = planner.query(belief);
+      if (!answer.action) break;
+      if (i >= 4) {
+        ++stuck;
+        const motion::JointPath way = belief.way_back();
+        const motion::JointPath& path = answer.action->path;
+        const JointVector& start = path[answer.action->lead];
+        const std::size_t along = in_common(way, path);
+        ASSERT_GT(along, 0u);
+        EXPECT_GE(answer.action->kind, action::Kind::sweep);
+        EXPECT_TRUE(along == way.size() || past_plane(way[along - 1], start) <= 1e-6) << along << " of " << way.size();
+      }
+      belief.step(*answer.action, {false, belief.configuration()});
+    }
+  }
+  EXPECT_GT(stuck, 6);
+}
+
+/// Were its poses drawn from the sequence that begins with its seed, they would be those that whoever draws the true
+/// pose by the same seed gets first.
+TEST(Chance, OfAPlannerIsItsOwn) {
+  const Belief belief(model(Kind::hierarchical), task()->scene().start);
+  int differ = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    PlannerOptions options = within(1);
+    options.seed = seed;
+    Planner planner(model(Kind::hierarchical), options);
+    const Answer answer = planner.query(belief);
+    ASSERT_TRUE(answer.action);
+    Rng rng(seed);
+    const std::vector<double> by_seed = solver::forecast(belief, *answer.action, belief::Likelihood::calibrated, rng);
+    differ += std::abs(1.0 - by_seed.back() - answer.action->contact_probability) > 1e-9;
+  }
+  EXPECT_GT(differ, 2);
 }
 
 }  // namespace

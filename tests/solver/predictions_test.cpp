@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/predictions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "belief/small_task.hpp"
+
+/// Poses told apart by where a motion first touches them.
+namespace tactus::test {
+namespace {
+
+using solver::Group;
+using solver::Predictions;
+using support::Bitset;
+using support::Rng;
+
+constexpr std::size_t poses = 40;
+
+const std::shared_ptr<const action::Task>& task() {
+  static const auto made = small_task({.roll_width = 0.4, .position_width = 0.04});
+  return made;
+}
+
+Predictions random_predictions(Rng& rng) {
+  std::vector<Pose> drawn;
+  for (std::size_t i = 0; i < poses; ++i) drawn.push_back(task()->scene().prior.sample(rng));
+  return {task(), drawn};
+}
+
+Bitset random_members(Rng& rng) {
+  Bitset members(poses);
+  for (std::size_t i = 0; i < poses; ++i)
+    if (rng.below(3) > 0) members.set(i);
+  members.set(rng.below(poses));
+  return members;
+}
+
+action::MotionPtr motion_of(const action::Action& made) {
+  action::Motion motion;
+  motion.path = made.path;
+  return action::finished(*task(), motion);
+}
+
+std::size_t first_contact(const action::Motion& motion, const Pose& pose) {
+  return task()->target_contact().first_contact(motion.bodies, pose).value_or(motion.path.size());
+}
+
+/// Calls `visit(predictions, motion, members, least, groups)` for random ones.
+template <typename Visit>
+void for_random_splits(std::uint64_t seed, Visit&& visit) {
+  Rng rng(seed);
+  action::ActionLibrary library(*task());
+  for (int round = 0; round < 5; ++round) {
+    Predictions predictions = random_predictions(rng);
+    for (int i = 0; i < 12; ++i) {
+      const action::MotionPtr motion = motion_of(random_action(*task(), library, task()->scene().start, rng));
+      const Bitset members = random_members(rng);
+      const std::size_t least = 1 + rng.below(10);
+      ASSERT_NO_FATAL_FAILURE(visit(predictions, motion, members, least, predictions.split(motion, members, least)));
+    }
+  }
+}
+
+TEST(Split, PartitionsTheMembersByAscendingFirstContacts) {
+  for_random_splits(1, [](const Predictions& predictions, const action::MotionPtr& motion, const Bitset& members,
+                          std::size_t, const std::vector<Group>& groups) {
+    Bitset seen(poses);
+    std::size_t after = 0;
+    for (const Group& group : groups) {
+      ASSERT_GE(group.first, after);
+      ASSERT_GE(group.last, group.first);
+      after = group.last + 1;
+      ASSERT_TRUE(std::is_sorted(group.poses.begin(), group.poses.end()));
+      for (const std::size_t pose : group.poses) {
+        const std::size_t at = first_contact(*motion, predictions.poses()[pose]);
+        ASSERT_TRUE(at >= group.first && at <= group.last);
+        ASSERT_TRUE(members.test(pose) && !seen.test(pose));
+        seen.set(pose);
+      }
+    }
+    ASSERT_EQ(seen.count(), members.count());
+  });
+}
+
+TEST(Split, PutsFewTogetherButNeverWithThoseThatAreNotTouched) {
+  int together = 0;
+  for_random_splits(2, [&](const Predictions&, const action::MotionPtr& motion, const Bitset&, std::size_t least,
+                           const std::vector<Group>& groups) {
+    const std::size_t untouched = motion->path.size();
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      ASSERT_FALSE(groups[i].poses.empty());
+      ASSERT_TRUE(groups[i].last < untouched || groups[i].first == untouched);
+      const bool is_last_touched = i + 1 == groups.size() || groups[i + 1].first == untouched;
+      if (groups[i].first < untouched && !is_last_touched) {
+        ASSERT_GE(groups[i].poses.size(), least);
+      }
+      together += groups[i].last > groups[i].first;
+    }
+  });
+  EXPECT_GT(together, 20);
+}
+
+TEST(Split, IsNoCoarserThanItNeedBe) {
+  for_random_splits(3, [](Predictions& predictions, const action::MotionPtr& motion, const Bitset& members,
+                          std::size_t least, const std::vector<Group>& groups) {
+    for (const Group& group : groups) {
+      const Bitset last = predictions.subset(motion, members, group.last, group.last);
+      ASSERT_FALSE(last.none());
+      ASSERT_TRUE(group.last == group.first || group.poses.size() - last.count() < least);
+    }
+    for (const Group& group : predictions.split(motion, members)) ASSERT_EQ(group.first, group.last);
+  });
+}
+
+TEST(LeastGroup, IsHalfOfWhatAContactLeavesOfAnEvenLayout) {
+  EXPECT_EQ(solver::least_group(100, 2), 5u);
+  EXPECT_EQ(solver::least_group(64, 3), 8u);
+  EXPECT_EQ(solver::least_group(625, 4), 63u);
+  for (std::size_t count = 1; count < 500; ++count) {
+    EXPECT_EQ(solver::least_group(count, 0), 1u);
+    EXPECT_EQ(solver::least_group(count, 1), 1u);
+    for (int dimensions = 1; dimensions < 6; ++dimensions) {
+      const std::size_t least = solver::least_group(count, dimensions);
+      EXPECT_GE(least, 1u);
+      EXPECT_LE(2 * least, count + 1);
+      EXPECT_LE(least, solver::least_group(count + 1, dimensions));
+      EXPECT_LE(least, solver::least_group(count, dimensions + 1));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tactus::test

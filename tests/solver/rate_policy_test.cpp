@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/rate_policy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "action/probes.hpp"
+#include "belief/small_task.hpp"
+#include "solver/pose_problem.hpp"
+#include "solver/search.hpp"
+
+/// What a simple policy costs: of some sets of poses, and as the upper bound of a search.
+namespace tactus::test {
+namespace {
+
+using solver::Attempt;
+using solver::BeliefStatePtr;
+using solver::RatePolicy;
+using solver::Search;
+using solver::SecondValue;
+using solver::ValueType;
+using support::Bitset;
+using support::Deadline;
+using support::Rng;
+using Members = RatePolicy::Members;
+
+constexpr int dimensions = 3;
+
+const std::shared_ptr<const action::Task>& task() {
+  static const auto made = small_task({.roll_width = 0.2, .position_width = 0.04});
+  return made;
+}
+
+/// From the middle of the prior, this share of its widths; no two of them so close that an attempt at one may serve the
+/// other.
+std::vector<Pose> random_poses(std::size_t count, Rng& rng, double share = 1.0) {
+  constexpr double apart = 0.002;
+  scene::Prior part = task()->scene().prior;
+  for (double& width : part.width) width *= share;
+  std::vector<Pose> poses;
+  while (poses.size() < count) {
+    const Pose pose = part.sample(rng);
+    if (std::all_of(poses.begin(), poses.end(),
+                    [&](const Pose& other) { return (other.translation() - pose.translation()).norm() > apart; }))
+      poses.push_back(pose);
+  }
+  return poses;
+}
+
+Attempt attempt_at(const Pose& pose) {
+  constexpr double way = 0.05;
+  const Pose seated = task()->scene().seated(pose);
+  Attempt attempt{seated, seated, way};
+  attempt.base_from_start.translation() -= way * (pose.linear() * task()->scene().target.approach_axis);
+  return attempt;
+}
+
+/// A policy on some poses of which an attempt serves its own alone, and what it rests on.
+struct Setting {
+  Setting(std::size_t count, Rng& rng) : predictions(task(), random_poses(count, rng)) {
+    for (std::size_t i = 0; i < count; ++i) {
+      attempts.push_back(attempt_at(predictions.poses()[i]));
+      served.emplace_back(count);
+      served.back().set(i);
+    }
+  }
+  RatePolicy policy() {
+    return {task(),   predictions, action::probes(*task(), task()->frame().region, task()->home(), 3),
+            attempts, served,      dimensions};
+  }
+  double straight(const Pose& base_from_tool, std::size_t member) const {
+    const Pose& start = attempts[member].base_from_start;
+    return task()->options().cost.action + (start.translation() - base_from_tool.translation()).norm() +
+           0.05 * geometry::angle_between(start, base_from_tool) + attempts[member].cost;
+  }
+
+  solver::Predictions predictions;
+  std::vector<Attempt> attempts;
+  std::vector<Bitset> served;
+};
+
+Members random_members(std::size_t count, Rng& rng) {
+  Members members;
+  const std::uint64_t most = 1 + rng.below(6);
+  for (std::size_t i = 0; i < count; ++i)
+    if (rng.below(most) == 0) members.push_back(i);
+  if (members.empty()) members.push_back(rng.below(count));
+  return members;
+}
+
+Pose random_place(Rng& rng) {
+  const Vector3 shift(rng.uniform(-0.05, 0.01), rng.uniform(-0.05, 0.05), rng.uniform(-0.05, 0.05));
+  return Eigen::Translation3d(shift) * task()->base_from_tool(task()->scene().start);
+}
+
+TEST(RatePolicy, OfOnePoseIsTheWayToTheAttemptAndTheAttempt) {
+  Rng rng(1);
+  Setting setting(20, rng);
+  RatePolicy policy = setting.policy();
+  for (std::size_t member = 0; member < 20; ++member) {
+    const Pose at = random_place(rng);
+    const Attempt& attempt = setting.attempts[member];
+    EXPECT_NEAR(
+        policy.cost({member}, at),
+        task()->options().cost.action + action::transit_cost(*task(), at, attempt.base_from_start) + attempt.cost,
+        1e-12);
+  }
+}
+
+TEST(RatePolicy, NeverCostsLessThanGoingStraightToEachPose) {
+  Rng rng(2);
+  Setting setting(60, rng);
+  RatePolicy policy = setting.policy();
+  for (int i = 0; i < 200; ++i) {
+    const Members members = random_members(60, rng);
+    const Pose at = random_place(rng);
+    double sum = 0.0;
+    for (const std::size_t member : members) sum += setting.straight(at, member);
+    ASSERT_GE(policy.cost(members, at), sum / static_cast<double>(members.size()) - 1e-9);
+  }
+}
+
+TEST(RatePolicy, CostsTheSameWheneverAsked) {
+  Rng rng(3);
+  Setting setting(28, rng);
+  RatePolicy used = setting.policy();
+  std::vector<std::pair<Members, Pose>> asked;
+  std::vector<double> cost;
+  for (int i = 0; i < 60; ++i) {
+    asked.emplace_back(random_members(28, rng), random_place(rng));
+    cost.push_back(used.cost(asked.back().first, asked.back().second));
+  }
+  RatePolicy backwards = setting.policy();
+  for (std::size_t i = asked.size(); i-- > 0;) {
+    ASSERT_EQ(backwards.cost(asked[i].first, asked[i].second), cost[i]) << i;
+    ASSERT_EQ(used.cost(asked[i].first, asked[i].second), cost[i]) << i;
+  }
+}
+
+BeliefStatePtr bounded_start(const std::vector<Pose>& poses) {
+  return std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()), poses, 5.0,
+                                               0.035, SecondValue::upper_bound)
+      ->start(task()->scene().start);
+}
+
+TEST(UpperBound, IsNeverBelowTheLowerOne) {
+  Rng rng(5);
+  for (int walk = 0; walk < 12; ++walk) {
+    BeliefStatePtr state = bounded_start(random_poses(2 + rng.below(40), rng));
+    for (int depth = 0; depth < 4; ++depth) {
+      const solver::Values values = state->heuristic();
+      ASSERT_GT(values[0], 0.0);
+      ASSERT_LE(values[0], values[1]);
+      ASSERT_LT(values[1], 10.0);
+      const std::vector<solver::Choice> choices = state->choices();
+      if (choices.empty()) break;
+      const solver::Choice& choice = choices[rng.below(choices.size())];
+      const solver::Outcome& outcome = choice.outcomes[rng.below(choice.outcomes.size())];
+      if (outcome.goal) break;
+      state = state->successor(choice, outcome);
+    }
+  }
+}
+
+TEST(UpperBound, AndTheLowerOneOnlyCloseInOnEachOther) {
+  Rng rng(6);
+  for (int episode = 0; episode < 6; ++episode) {
+    const BeliefStatePtr belief = bounded_start(random_poses(2 + rng.below(14), rng, rng.uniform(0.3, 1.0)));
+    const solver::Values first = belief->heuristic();
+    Search search(belief, {.bounded = true, .gap = 0.0});
+    std::vector<solver::Values> before;
+    for (int run = 0; run < 8; ++run) {
+      Deadline deadline(std::numeric_limits<double>::infinity(), 4);
+      search.run(deadline);
+      for (std::size_t node = 0; node < search.size(); ++node) {
+        const solver::Values now{search.value(static_cast<int>(node), ValueType::admissible),
+                                 search.value(static_cast<int>(node), ValueType::inadmissible)};
+        ASSERT_LE(now[0], now[1] + 1e-9) << "node " << node << " of " << search.size();
+        if (node < before.size()) {
+          ASSERT_GE(now[0], before[node][0]);
+          ASSERT_LE(now[1], before[node][1]);
+        } else {
+          before.emplace_back();
+        }
+        before[node] = now;
+      }
+      ASSERT_LE(before[Search::start][1], first[1]);
+      ASSERT_GE(before[Search::start][0], first[0]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tactus::test
