@@ -164,7 +164,7 @@ Cell CellBelief::draw_weighed(support::Rng& rng) const {
 
 Cell CellBelief::draw_cell(support::Rng& rng) const {
   if (!weighed_.empty()) return draw_weighed(rng);
-  if (grid_) return {grid_->centre(grid_->members().member(rng.below(grid_->size()))), {}};
+  if (grid_) return any_cell(rng);
   double left = rng.uniform() * volume();
   for (const Cell& cell : cells_)
     if ((left -= volume(cell)) <= 0.0) return cell;
@@ -214,13 +214,19 @@ std::vector<Cell> CellBelief::draw_parts(const Task& task, const std::vector<Tra
   if (size() <= count)
     parts = cells();
   else
-    while (parts.size() < count) parts.push_back(draw_cell(rng));
-  const auto is_coarse = [&](const Cell& part) { return radius(part) > wanted; };
+    while (parts.size() < count) parts.push_back(any_cell(rng));
+  const auto is_coarse = [&](const Cell& part) { return radius(part) > wanted && may_split(part); };
   while (std::any_of(parts.begin(), parts.end(), is_coarse) && deadline.used_fraction() < 0.5) {
     parts = halves_of_coarsest(task, history, parts, parts.size());
     if (parts.size() > 2 * count) parts = thinned(parts, count, rng);
   }
-  return parts;
+  return parts.size() > count ? thinned(parts, count, rng) : parts;
+}
+
+/// Whatever its weight.
+Cell CellBelief::any_cell(support::Rng& rng) const {
+  const std::size_t i = rng.below(size());
+  return grid_ ? Cell{grid_->centre(grid_->members().member(i)), {}} : cells_[i];
 }
 
 bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,

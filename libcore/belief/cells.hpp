@@ -56,8 +56,8 @@ class CellBelief {
   /// any are left; if not, nothing is changed.
   bool update(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes = {});
 
-  /// Splits cells, the coarsest first, as long as there is room for more, and tests the new ones against the whole history. False (and
-  /// unchanged from there on) if that would leave none. Stops early when `enough` says so.
+  /// Splits cells, the coarsest first, as long as there is room for more, and tests the new ones against the whole
+  /// history. False (and unchanged from there on) if that would leave none. Stops early when `enough` says so.
   bool refine(const Task& task, const std::vector<Trace>& history,
               const std::function<bool(const CellBelief&)>& enough = {});
 
@@ -82,6 +82,7 @@ class CellBelief {
   std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
                                        const std::vector<Cell>& cells, std::size_t most) const;
   bool may_reproduce(const Task& task, const std::vector<Trace>& history, Cell& cell) const;
+  Cell any_cell(support::Rng& rng) const;
   std::vector<Cell> thinned(const std::vector<Cell>& cells, std::size_t count, support::Rng& rng) const;
   void list_when_few();
   void weigh();

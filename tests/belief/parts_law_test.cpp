@@ -108,5 +108,32 @@ TEST(Parts, AreDrawnFromEachHalfByItsShareOfAllThereAre) {
   }
 }
 
+/// The share of those that come from a cell coarser than the finest there is.
+double share_of_coarse(const CellBelief& cells, const std::vector<Cell>& parts) {
+  double finest = 1.0, coarse = 0.0;
+  cells.for_each([&](const Cell& cell) { finest = std::min(finest, cells.radius(cell)); });
+  for (const Cell& part : parts)
+    coarse +=
+        cells.all_of([&](const Cell& cell) { return cells.radius(cell) < 1.1 * finest || !holds(cells, cell, part); })
+            ? 0.0
+            : 1.0;
+  return coarse / static_cast<double>(parts.size());
+}
+
+TEST(Parts, AreDrawnFromCellsOfEachSizeByTheirShareOfAllThereAre) {
+  constexpr double radius = 0.0008;
+  Rng rng(5);
+  for (const std::uint64_t seed : {21u, 25u, 39u}) {
+    Episode episode(model(), seed);
+    for (int i = 0; i < 4; ++i) episode.step();
+    const CellBelief& cells = episode.belief.cells();
+    const double wanted = share_of_coarse(cells, draw(episode.belief, all, radius, rng));
+    std::vector<Cell> drawn;
+    while (drawn.size() < 2000)
+      for (const Cell& part : draw(episode.belief, 20, radius, rng)) drawn.push_back(part);
+    EXPECT_NEAR(share_of_coarse(cells, drawn), wanted, 0.06) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace tactus::test
