@@ -32,7 +32,7 @@ struct Answer {
 /// observations are the predicted ones. One thread at a time; `cancel` from any.
 class Planner {
  public:
-  /// Throws `invalid_argument` for options out of range or a solver that is not there yet.
+  /// Throws `invalid_argument` for options out of range.
   Planner(std::shared_ptr<const belief::Model> model, const PlannerOptions& options);
   ~Planner();
 
