@@ -212,8 +212,8 @@ TEST(BoundedSearch, KeepsTheOptimumBetweenItsBoundsAtEveryBeliefMet) {
 }
 
 TEST(Evaluation, NoPolicyBeatsTheOptimum) {
-  const std::vector<solver::PlannerOptions> policies{options(Solver::rtdp_bel, 30), options(Solver::rtdp_bel, 100),
-                                                     options(Solver::brtdp_bel, 30), options(Solver::brtdp_bel, 100),
+  const std::vector<solver::PlannerOptions> policies{options(Solver::rtdp_bel, 30),   options(Solver::rtdp_bel, 100),
+                                                     options(Solver::brtdp_bel, 30),  options(Solver::brtdp_bel, 100),
                                                      options(Solver::rtdp_inad, 100), options(Solver::rate, 1),
                                                      options(Solver::tbl, 1)};
   std::vector<double> ratio(policies.size(), 0.0);
