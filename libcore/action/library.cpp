@@ -51,14 +51,14 @@ std::vector<MotionPtr> ActionLibrary::primitives_at(const JointVector& q) {
 }
 
 /// How far the tool is past the retreat plane, m.
-double ActionLibrary::before_plane(const JointVector& q, const JointVector& start) const {
+double ActionLibrary::past_plane(const JointVector& q, const JointVector& start) const {
   const Vector3 axis = task_.frame().base_from_search.linear().col(2);
   return axis.dot(task_.base_from_tool(q).translation() - task_.base_from_tool(start).translation());
 }
 
 JointPath ActionLibrary::as_far_as_plane(const JointPath& way_back, const JointVector& start) const {
   const auto there = std::find_if(way_back.begin(), way_back.end(),
-                                  [&](const JointVector& q) { return before_plane(q, start) <= 1e-6; });
+                                  [&](const JointVector& q) { return past_plane(q, start) <= 1e-6; });
   return {way_back.begin(), there == way_back.end() ? there : there + 1};
 }
 
@@ -72,7 +72,7 @@ JointPath ActionLibrary::lead_in(JointPath path, const JointVector& start, const
   Pose back = task_.base_from_tool(q);
   const Pose goal = task_.base_from_tool(start);
   const Vector3 axis = task_.frame().base_from_search.linear().col(2), out = task_.frame().tool_axes(back).col(2);
-  const double retreat = before_plane(q, start);
+  const double retreat = past_plane(q, start);
   if (retreat > 1e-6 && out.dot(axis) > least_retreat) {
     back.translation() -= retreat / out.dot(axis) * out;
     if (const auto leg = motion::straight_tool_path(world, tool_link, q, back, step))

@@ -45,7 +45,7 @@ class ActionLibrary {
  private:
   JointPath lead_in(JointPath path, const JointVector& start, const support::Deadline& deadline) const;
   JointPath as_far_as_plane(const JointPath& way_back, const JointVector& start) const;
-  double before_plane(const JointVector& q, const JointVector& start) const;
+  double past_plane(const JointVector& q, const JointVector& start) const;
 
   const Task& task_;
   std::mutex mutex_;

@@ -209,15 +209,10 @@ struct Belief::Drawn {
 };
 
 /// A pose from a cell, brought into agreement with the history.
-std::optional<Projection> Belief::agreeing(const Cell& cell, support::Rng& rng) const {
+std::optional<Projection> Belief::agreeing(const Cell& cell, double near, support::Rng& rng) const {
   const PoseVector seed = cells_->draw_in(cell, rng);
-  if (cells_->radius(cell) > fine_radius) return agreeing(seed);
+  if (cells_->radius(cell) > fine_radius) return projected(task(), history_, seed, near);
   return Projection{seed, reproduces(task(), history_, geometry::pose_from(seed))};
-}
-
-/// Where cells are coarse, so is what counts as near.
-std::optional<Projection> Belief::agreeing(const PoseVector& seed) const {
-  return projected(task(), history_, seed, std::max(least_near, near_share * cells_->coarsest()));
 }
 
 /// A pose up to a cell's width off another, and mostly much less.
@@ -232,10 +227,11 @@ PoseVector Belief::beside(const PoseVector& from, support::Rng& rng) const {
 
 std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known,
                                const support::Deadline& deadline) const {
+  const double near = std::max(least_near, near_share * cells_->coarsest());
   Drawn drawn;
   for (std::size_t tried = 0; tried < count && deadline.used_fraction() < 0.5; ++tried) {
     if (tried >= least_trial && drawn.exact.size() * pays_from < tried) break;
-    drawn.add(agreeing(cells_->draw_cell(rng), rng));
+    drawn.add(agreeing(cells_->draw_cell(rng), near, rng));
   }
   const std::size_t least = count / least_share;
   const bool is_hard = drawn.exact.size() < least;
@@ -243,12 +239,12 @@ std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::
     return is_hard && drawn.size() < wanted && deadline.used_fraction() < 0.5;
   };
   for (std::size_t i = 0; i < known.size() && lacks(count - least); ++i)
-    drawn.add(agreeing(geometry::pose_vector(known[i])));
+    drawn.add(projected(task(), history_, geometry::pose_vector(known[i]), near));
   if (lacks(count))
     for (const Cell& part : cells_->draw_parts(task(), history_, count, part_radius, rng, deadline))
-      if (lacks(count)) drawn.add(agreeing(part, rng));
+      if (lacks(count)) drawn.add(agreeing(part, near, rng));
   for (std::size_t tried = 0; tried < count && lacks(least) && drawn.size() > 0; ++tried)
-    drawn.add(agreeing(beside(drawn.any(rng), rng)));
+    drawn.add(projected(task(), history_, beside(drawn.any(rng), rng), near));
   const std::size_t unproved = is_hard ? count / unproved_share : 0;
   std::vector<Pose> poses;
   for (const PoseVector& v : drawn.exact)

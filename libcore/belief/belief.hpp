@@ -88,9 +88,9 @@ class Belief {
   /// turns, and in every way in which roll, pitch and yaw describe the same rotation.
   bool contains(const Pose& base_from_target) const;
 
-  /// Up to `count` poses drawn from all over the cells that reproduce the whole history exactly (phase 2 only). Where
-  /// they are hard to find, an eighth are anywhere in a cell, so that no part of the belief goes without a pose, and up
-  /// to a third come near only.
+  /// Up to `count` poses drawn from all over the cells (phase 2 only): those that reproduce the whole history exactly
+  /// first, then those that miss it by no more than a millimetre or 15 % of the coarsest cell's radius. Where exact
+  /// ones are hard to find, an eighth are anywhere in a cell, so that no part of the belief goes without a pose.
   /// `known`: poses drawn for an earlier state of this belief; they are brought back to the history where it is hard to
   /// find poses afresh. Looks no further once half of a budget in seconds is used up.
   std::vector<Pose> draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known = {},
@@ -118,8 +118,7 @@ class Belief {
   Belief doubting(const std::vector<std::size_t>& traces) const;
   std::optional<Belief> best_explanation(const std::vector<std::vector<std::size_t>>& ways) const;
   struct Drawn;
-  std::optional<Projection> agreeing(const Cell& cell, support::Rng& rng) const;
-  std::optional<Projection> agreeing(const PoseVector& seed) const;
+  std::optional<Projection> agreeing(const Cell& cell, double near, support::Rng& rng) const;
   PoseVector beside(const PoseVector& from, support::Rng& rng) const;
   void doubt();
 

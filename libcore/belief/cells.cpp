@@ -52,10 +52,11 @@ PoseVector CellBelief::half_width(const Cell& cell) const {
 
 double CellBelief::radius(const Cell& cell) const { return scene::cell_radius(half_width(cell), reach_); }
 
-double CellBelief::coarsest() const {
-  if (grid_) return radius(Cell{});
+double CellBelief::coarsest() const { return grid_ ? radius(Cell{}) : coarsest(cells_); }
+
+double CellBelief::coarsest(const std::vector<Cell>& cells) const {
   double most = 0.0;
-  for (const Cell& cell : cells_) most = std::max(most, radius(cell));
+  for (const Cell& cell : cells) most = std::max(most, radius(cell));
   return most;
 }
 
@@ -181,11 +182,10 @@ PoseVector CellBelief::draw_in(const Cell& cell, support::Rng& rng) const {
 /// With the coarsest ones split, up to `most` of them, and the halves that can't have given the history left out.
 std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
                                                  const std::vector<Cell>& cells, std::size_t most) const {
-  double coarsest = 0.0;
-  for (const Cell& cell : cells) coarsest = std::max(coarsest, radius(cell));
+  const double split_from = 0.8 * coarsest(cells);
   std::vector<Cell> candidates, kept;
   for (const Cell& cell : cells) {
-    if (radius(cell) > 0.8 * coarsest && may_split(cell) && candidates.size() < 2 * most)
+    if (radius(cell) > split_from && may_split(cell) && candidates.size() < 2 * most)
       split(cell, candidates);
     else
       kept.push_back(cell);

@@ -149,7 +149,7 @@ TEST(Cells, WhatIsDroppedHoldsNoPoseThatReproducesTheHistory) {
   });
 }
 
-TEST(Cells, DrawnPosesLieInCellsAndReproduceTheHistoryWhereTheyAreEasyToFind) {
+TEST(Cells, DrawnPosesLieInCellsAndReproduceTheHistoryOrComeNearButForAnEighth) {
   Rng rng(9);
   constexpr std::size_t count = 21;
   int full = 0;
@@ -161,6 +161,13 @@ TEST(Cells, DrawnPosesLieInCellsAndReproduceTheHistoryWhereTheyAreEasyToFind) {
     const auto exact = std::count_if(poses.begin(), poses.end(), [&](const Pose& pose) {
       return belief::reproduces(task(), belief.history(), pose);
     });
+    const double near = std::max(0.001, 0.15 * belief.cells().coarsest());
+    const auto agreeing = std::count_if(poses.begin(), poses.end(), [&](const Pose& pose) {
+      return belief::may_reproduce(task(), belief.history(), pose, 1.5 * near);
+    });
+    if (poses.size() > count / 3) {
+      ASSERT_GE(static_cast<std::size_t>(agreeing) + count / 8, poses.size());
+    }
     full += static_cast<std::size_t>(exact) == poses.size() && poses.size() > count / 3;
   });
   EXPECT_GT(full, 3);
