@@ -76,7 +76,7 @@ class PoseState : public BeliefState {
     double direct = 0.0;
     for (const std::size_t pose : group) direct += problem_->direct_cost(base_from_tool, pose);
     direct /= static_cast<double>(group.size());
-    if (problem_->policy_) return {direct, std::max(direct, problem_->policy_->cost(group, base_from_tool))};
+    if (problem_->policy_) return {direct, problem_->policy_->cost(group, base_from_tool)};
     const double share = static_cast<double>(group.size()) / static_cast<double>(problem_->predictions_.poses().size());
     const double bits = std::max(std::log2(static_cast<double>(group.size())), problem_->bits_ + std::log2(share));
     return {direct, direct + problem_->cost_per_bit_ * std::max(0.0, bits)};
