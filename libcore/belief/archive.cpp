@@ -13,7 +13,7 @@ namespace {
 using support::ByteReader;
 using support::ByteWriter;
 
-constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 2};
+constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 3};
 constexpr std::uint8_t most_splits = 60;  // of one dimension: far below any use
 
 /// A running hash of whatever a saved belief makes sense with only.
@@ -188,6 +188,7 @@ std::vector<std::uint8_t> Belief::save() const {
   to.u64(fingerprint(*model_));
   action::write_joints(to, q_);
   to.u8(static_cast<std::uint8_t>(health_));
+  to.u8(is_goal_ ? 1 : 0);
   to.u64(history_.size());
   for (const Trace& trace : history_) write_trace(to, trace);
   to.u8(cells_ ? 1 : 0);
@@ -209,6 +210,7 @@ Belief Belief::restore(std::shared_ptr<const Model> model, const std::uint8_t* b
   const Task& task = belief.task();
   belief.q_ = action::read_joints(from, task.scene().robot->dof(), "configuration");
   belief.health_ = from.flag("health") ? Health::contradicted : Health::good;
+  belief.is_goal_ = from.flag("goal");
   const std::size_t observations = from.count(8 + 4 + 2 + 8 + 8 + 8 + 8, "observations");
   for (std::size_t i = 0; i < observations; ++i) belief.history_.push_back(read_trace(from, task));
   const bool in_pose_phase = from.flag("phase");

@@ -24,6 +24,7 @@ constexpr std::size_t unproved_share = 8;   // of them anywhere in a cell, for w
 constexpr double stops_per_waypoint = 8.0;  // that can be told apart
 constexpr std::size_t few_cells = 400;      // enough to tell what an observation left out would leave possible
 constexpr std::size_t few_at_first = 1u << 16;
+constexpr std::size_t tests_per_cell = 100;   // of a proof, for each cell that there is room for
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
 constexpr std::size_t tries_per_pose = 2;     // of those that come near, to agree with the history
 
@@ -42,6 +43,7 @@ Belief::Belief(std::shared_ptr<const Model> model, const JointVector& q) : model
   check_configuration(q, "q");
   q_ = q;
   learn_anew(model_->options.cells);
+  is_goal_ = is_seated();
 }
 
 void Belief::check_configuration(const JointVector& q, const char* argument) const {
@@ -62,7 +64,9 @@ void Belief::check_configuration(const JointVector& q, const char* argument) con
 
 void Belief::set_configuration(const JointVector& q) {
   check_configuration(q, "q");
+  if (q == q_) return;
   q_ = q;
+  is_goal_ = is_seated();
 }
 
 void Belief::step(const Action& action, const Observation& observation) {
@@ -72,6 +76,7 @@ void Belief::step(const Action& action, const Observation& observation) {
   if (!observation.contact && stop.segment > stop.last_free) next.q_ = observation.q;
   next.history_.push_back(trace_of(task(), action, observation, stop));
   if (!next.learn({&next.history_.back()}, model_->options.cells)) next.doubt();
+  next.is_goal_ = next.is_seated() || next.prove_seated();
   *this = std::move(next);
 }
 
@@ -90,7 +95,7 @@ bool Belief::learn_anew(const CellOptions& options) {
 bool Belief::learn(const std::vector<const Trace*>& traces, const CellOptions& options) {
   if (cells_)
     return cells_->update(task(), traces) &&
-           cells_->refine(task(), history_, [this](const CellBelief&) { return is_goal(); });
+           cells_->refine(task(), history_, [this](const CellBelief&) { return is_seated(); });
   for (const Trace* trace : traces) voxels_->update(task(), *trace);
   const std::size_t left = voxels_->possibly_occupied().count();
   return left > 0 && (left > model_->options.delta || hand_over(options));
@@ -171,12 +176,23 @@ JointPath Belief::way_back() const {
   return way;
 }
 
-bool Belief::is_goal() const {
+/// Whether the tool is seated at every pose of a cell.
+bool Belief::is_seated(const Pose& base_from_tool, const Cell& cell) const {
+  return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre), cells_->half_width(cell));
+}
+
+bool Belief::is_seated() const {
   if (!cells_ || (!history_.empty() && history_.back().contact)) return false;
   const Pose base_from_tool = task().base_from_tool(q_);
-  return cells_->all_of([&](const Cell& cell) {
-    return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre), cells_->half_width(cell));
-  });
+  return cells_->all_of([&](const Cell& cell) { return is_seated(base_from_tool, cell); });
+}
+
+/// The same where the cells are too coarse to tell.
+bool Belief::prove_seated() {
+  if (!cells_ || cells_->grid() || history_.empty() || history_.back().contact) return false;
+  const Pose base_from_tool = task().base_from_tool(q_);
+  const auto seated = [&](const Cell& cell) { return is_seated(base_from_tool, cell); };
+  return cells_->prove(task(), history_, seated, tests_per_cell * model_->options.cells.most);
 }
 
 std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const {

@@ -79,9 +79,10 @@ class Belief {
   /// world. As far as it is known without a gap; at least the configuration.
   JointPath way_back() const;
 
-  /// At the present configuration every pose in every surviving cell has the tool seated within tolerance, and the last
-  /// motion was not stopped by a contact.
-  bool is_goal() const;
+  /// At the present configuration every pose that may have given the history has the tool seated within tolerance, and
+  /// the last motion was not stopped by a contact. Found out by `step`, which splits cells for it without keeping the
+  /// parts; after `set_configuration` by the cells as they are.
+  bool is_goal() const { return is_goal_; }
 
   /// Whether the belief still holds this pose: it lies in the prior, and in the voxel phase every voxel centre inside
   /// the target there is possibly occupied; in the pose phase a cell holds it. To 1e-9 m and rad; angles modulo whole
@@ -119,6 +120,9 @@ class Belief {
   std::optional<Belief> best_explanation(const std::vector<std::vector<std::size_t>>& ways) const;
   struct Drawn;
   std::optional<Projection> agreeing(const Cell& cell, double near, support::Rng& rng) const;
+  bool is_seated(const Pose& base_from_tool, const Cell& cell) const;
+  bool is_seated() const;
+  bool prove_seated();
   PoseVector beside(const PoseVector& from, support::Rng& rng) const;
   void doubt();
 
@@ -126,6 +130,7 @@ class Belief {
   JointVector q_;
   std::vector<Trace> history_;
   Health health_ = Health::good;
+  bool is_goal_ = false;
   std::optional<VoxelBelief> voxels_;
   std::optional<CellBelief> cells_;
 };

@@ -5,7 +5,30 @@
 #include <cmath>
 #include <numeric>
 
+#include "support/parallel.hpp"
+
 namespace tactus::belief {
+namespace {
+
+constexpr std::size_t first_round = 16;  // of cells from all over, of a proof; each next round is twice as long
+constexpr std::size_t stride = 61;
+
+/// The indices below `count` in long steps.
+std::vector<std::size_t> strided(std::size_t count) {
+  std::vector<std::size_t> indices;
+  for (std::size_t start = 0; start < stride; ++start)
+    for (std::size_t i = start; i < count; i += stride) indices.push_back(i);
+  return indices;
+}
+
+std::vector<std::size_t> latest_first(const std::vector<Trace>& history) {
+  std::vector<std::size_t> order(history.size());
+  std::iota(order.rbegin(), order.rend(), std::size_t{0});
+  return order;
+}
+
+}  // namespace
+
 CellBelief::CellBelief(const Task& task, const CellOptions& options) : options_(options), prior_(task.scene().prior) {
   for (const Vector3& v : task.scene().target.mesh.vertices) reach_ = std::max(reach_, v.norm());
   grid_.emplace(prior_, options.position, options.angle, options.most_at_first, reach_);
@@ -113,17 +136,23 @@ bool CellBelief::update(const Task& task, const std::vector<const Trace*>& trace
   return true;
 }
 
-/// Whether the cell may have given the whole history; settles what it can on the way.
-bool CellBelief::may_reproduce(const Task& task, const std::vector<Trace>& history, Cell& cell) const {
+/// Whether the cell may have given the whole history; settles what it can on the way. The trace that it can't have
+/// given moves to the front of `order`, to be the first that the next cell is asked for.
+bool CellBelief::may_reproduce(const Task& task, const std::vector<Trace>& history, std::vector<std::size_t>& order,
+                               Cell& cell) const {
   const Pose pose = geometry::pose_from(cell.centre);
   const double r = radius(cell);
-  for (std::size_t i = history.size(); i-- > 0;) {
+  for (auto next = order.begin(); next != order.end(); ++next) {
+    const std::size_t i = *next;
     const Trace& trace = history[i];
     const std::uint64_t bit = i < 64 ? std::uint64_t{1} << i : 0;
     const bool is_settled = (cell.settled & bit) != 0;
     if (trace.doubted || (is_settled && !trace.contact)) continue;
     std::size_t from = is_settled ? trace.touch : 0;
-    if (fit(task, trace, pose, r, from) == Fit::none) return false;
+    if (fit(task, trace, pose, r, from) == Fit::none) {
+      std::rotate(order.begin(), next, next + 1);
+      return false;
+    }
     if (from == trace.touch) cell.settled |= bit;
   }
   return true;
@@ -190,8 +219,13 @@ std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::ve
     else
       kept.push_back(cell);
   }
-  for (Cell& cell : candidates)
-    if (may_reproduce(task, history, cell)) kept.push_back(cell);
+  std::vector<char> is_possible(candidates.size());
+  support::for_ranges(candidates.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::size_t> order = latest_first(history);
+    for (std::size_t i = begin; i < end; ++i) is_possible[i] = may_reproduce(task, history, order, candidates[i]);
+  });
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (is_possible[i]) kept.push_back(candidates[i]);
   return kept;
 }
 
@@ -240,6 +274,66 @@ bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
     cells_ = std::move(kept);
     weigh();
   }
+  return true;
+}
+
+/// What a proof leaves of one cell.
+struct CellBelief::Rest {
+  bool any = false;       ///< a part that may have given the history
+  bool in_doubt = false;  ///< one of them may fail the test
+  std::size_t tests = 0;
+};
+
+CellBelief::Rest CellBelief::rest_of(const Task& task, const std::vector<Trace>& history, const Cell& whole,
+                                     const std::function<bool(const Cell&)>& passes, std::size_t most_tests,
+                                     std::vector<std::size_t>& order) const {
+  Rest rest;
+  std::vector<Cell> open, halves{whole};
+  for (;;) {
+    for (Cell& half : halves) {
+      if (passes(half)) {
+        rest.any = true;
+      } else if (++rest.tests; may_reproduce(task, history, order, half)) {
+        open.push_back(half);
+      }
+    }
+    if (open.empty()) return rest;
+    if (!may_split(open.back()) || rest.tests > most_tests) break;
+    halves.clear();
+    split(open.back(), halves);
+    open.pop_back();
+  }
+  rest.any = rest.in_doubt = true;
+  return rest;
+}
+
+bool CellBelief::prove(const Task& task, const std::vector<Trace>& history,
+                       const std::function<bool(const Cell&)>& passes, std::size_t most_tests) {
+  if (grid_) return false;
+  const std::vector<std::size_t> from_all_over = strided(cells_.size());
+  std::vector<Rest> rest(cells_.size());
+  for (std::size_t first = 0, last = 0; first < cells_.size(); first = last) {
+    last = std::min(cells_.size(), 2 * first + first_round);
+    support::for_ranges(last - first, options_.threads, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::size_t> order = latest_first(history);
+      for (std::size_t i = first + begin; i < first + end; ++i) {
+        const std::size_t cell = from_all_over[i];
+        rest[cell] = rest_of(task, history, cells_[cell], passes, most_tests, order);
+        if (rest[cell].in_doubt) return;
+      }
+    });
+    for (std::size_t i = first; i < last; ++i) {
+      const Rest& found = rest[from_all_over[i]];
+      if (found.in_doubt || found.tests > most_tests) return false;
+      most_tests -= found.tests;
+    }
+  }
+  std::vector<Cell> kept;
+  for (std::size_t i = 0; i < cells_.size(); ++i)
+    if (rest[i].any) kept.push_back(cells_[i]);
+  if (kept.empty()) return false;
+  cells_ = std::move(kept);
+  weigh();
   return true;
 }
 

@@ -25,6 +25,7 @@ struct CellOptions {
   std::size_t most = 20000;              ///< cells are split while there are fewer than these
   std::size_t most_at_first = 1u << 21;  ///< initial cells are widened until there are no more than these
   double finest_radius = 0.00025;        ///< m: no cell with a smaller radius is split
+  int threads = 1;                       ///< that test cells; 0: as many as the machine has. The answers are the same
 };
 
 /// Phase 2: a set of cells that covers every pose that may have given the observations. A cell goes only when no pose
@@ -61,6 +62,13 @@ class CellBelief {
   bool refine(const Task& task, const std::vector<Trace>& history,
               const std::function<bool(const CellBelief&)>& enough = {});
 
+  /// Whether each pose that may have given the history passes a test. `passes` is asked of cells and errs to false;
+  /// those that fail are split, depth first, down to the finest, so that it takes no memory. Given up (false) after
+  /// some `most_tests` of parts against the history. If true, cells of which nothing is left go; else nothing is
+  /// changed.
+  bool prove(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& passes,
+             std::size_t most_tests);
+
   Cell draw_cell(support::Rng& rng) const;  ///< by weight
   PoseVector draw_in(const Cell& cell, support::Rng& rng) const;
 
@@ -82,7 +90,12 @@ class CellBelief {
   double coarsest(const std::vector<Cell>& cells) const;
   std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
                                        const std::vector<Cell>& cells, std::size_t most) const;
-  bool may_reproduce(const Task& task, const std::vector<Trace>& history, Cell& cell) const;
+  bool may_reproduce(const Task& task, const std::vector<Trace>& history, std::vector<std::size_t>& order,
+                     Cell& cell) const;
+  struct Rest;
+  Rest rest_of(const Task& task, const std::vector<Trace>& history, const Cell& whole,
+               const std::function<bool(const Cell&)>& passes, std::size_t most_tests,
+               std::vector<std::size_t>& order) const;
   Cell any_cell(support::Rng& rng) const;
   std::vector<Cell> thinned(const std::vector<Cell>& cells, std::size_t count, support::Rng& rng) const;
   void list_when_few();

@@ -105,7 +105,9 @@ bool TargetContact::piece_hit(const Piece& piece, const Pose& target_from_body, 
   if (std::abs(threshold) > std::max(margin_, piece.radius)) return threshold > 0.0;
   if (threshold >= 0.0) return crosses(piece, target_from_body, at, threshold);
   const Vector3 centre = target_from_body * piece.centre;
-  return tree.distance(centre, -threshold) >= -threshold && tree.contains(centre);
+  const geometry::DistanceBounds bounds = field_.narrow_bounds(centre);
+  if (bounds.lower > threshold || bounds.upper <= threshold) return bounds.upper <= threshold;
+  return !tree.is_nearer(centre, -threshold) && tree.contains(centre);
 }
 
 /// Whether a piece is within `reach` of the target's triangles: those beside it that no plane parts from it are

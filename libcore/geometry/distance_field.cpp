@@ -62,23 +62,60 @@ DistanceBounds DistanceField::bounds(const Vector3& p) const {
   return {std::max(sample - error, tree_.box().distance(p)), sample + error};
 }
 
-double DistanceField::estimate(const Vector3& p) const {
-  std::size_t corner = 0, stride = 1;
-  std::array<std::size_t, 3> step{};
-  std::array<double, 3> part{};
+bool DistanceField::Cell::holds_point() const {
+  return std::all_of(part.begin(), part.end(), [](double p) { return p >= 0.0 && p <= 1.0; });
+}
+
+std::size_t DistanceField::Cell::corner(unsigned bits) const {
+  std::size_t at = lowest;
+  for (unsigned d = 0; d < 3; ++d)
+    if ((bits >> d & 1u) != 0) at += step[d];
+  return at;
+}
+
+DistanceField::Cell DistanceField::cell(const Vector3& p) const {
+  Cell cell;
+  std::size_t stride = 1;
   for (int d = 0; d < 3; ++d) {
-    const double scaled = std::clamp((p[d] - origin_[d]) * inverse_spacing_, 0.0, last_[d]);
-    const double low = std::min(std::floor(scaled), last_[d] - 1.0);
-    part[d] = scaled - low;
-    corner += static_cast<std::size_t>(low) * stride;
-    step[d] = stride;
+    const double scaled = (p[d] - origin_[d]) * inverse_spacing_;
+    const double low = std::clamp(std::floor(scaled), 0.0, last_[d] - 1.0);
+    cell.part[d] = scaled - low;
+    cell.lowest += static_cast<std::size_t>(low) * stride;
+    cell.step[d] = stride;
     stride *= static_cast<std::size_t>(count_[d]);
   }
-  const auto along_x = [&](std::size_t at) {
-    return (1.0 - part[0]) * static_cast<double>(samples_[at]) + part[0] * static_cast<double>(samples_[at + step[0]]);
-  };
-  const auto along_y = [&](std::size_t at) { return (1.0 - part[1]) * along_x(at) + part[1] * along_x(at + step[1]); };
-  return (1.0 - part[2]) * along_y(corner) + part[2] * along_y(corner + step[2]);
+  return cell;
+}
+
+DistanceBounds DistanceField::narrow_bounds(const Vector3& p) const {
+  const Cell about = cell(p);
+  if (!about.holds_point()) return bounds(p);
+  DistanceBounds narrow{-1e300, 1e300};
+  for (unsigned bits = 0; bits < 8; ++bits) {
+    double squared = 0.0;
+    for (unsigned d = 0; d < 3; ++d) {
+      const double off = (bits >> d & 1u) != 0 ? 1.0 - about.part[d] : about.part[d];
+      squared += off * off;
+    }
+    const auto sample = static_cast<double>(samples_[about.corner(bits)]);
+    const double error = std::sqrt(squared) * spacing_ + float_slack * (1.0 + std::abs(sample));
+    narrow = {std::max(narrow.lower, sample - error), std::min(narrow.upper, sample + error)};
+  }
+  return narrow;
+}
+
+double DistanceField::estimate(const Vector3& p) const {
+  const Cell about = cell(p);
+  double sum = 0.0;
+  for (unsigned bits = 0; bits < 8; ++bits) {
+    double share = 1.0;
+    for (unsigned d = 0; d < 3; ++d) {
+      const double part = std::clamp(about.part[d], 0.0, 1.0);
+      share *= (bits >> d & 1u) != 0 ? part : 1.0 - part;
+    }
+    sum += share * static_cast<double>(samples_[about.corner(bits)]);
+  }
+  return sum;
 }
 
 Vector3 DistanceField::gradient(const Vector3& p) const {

@@ -26,6 +26,9 @@ class DistanceField {
   /// Bounds at any point, some tens of ns. Inside the lattice they are at most 1.74 spacings apart.
   DistanceBounds bounds(const Vector3& p) const;
 
+  /// Bounds from the eight samples about a point, 0.7 spacings apart or so; as `bounds` outside the lattice.
+  DistanceBounds narrow_bounds(const Vector3& p) const;
+
   /// The signed distance interpolated between samples, without a bound on its error; clamped to the lattice.
   double estimate(const Vector3& p) const;
 
@@ -46,6 +49,17 @@ class DistanceField {
   std::size_t bytes() const { return samples_.size() * sizeof(float); }
 
  private:
+  /// The samples about a point.
+  struct Cell {
+    std::array<double, 3> part{};  ///< of a spacing beyond the lowest of them; in [0, 1] inside the lattice
+    std::size_t lowest = 0;
+    std::array<std::size_t, 3> step{};
+
+    bool holds_point() const;
+    std::size_t corner(unsigned bits) const;  ///< bit d: the higher one along d
+  };
+
+  Cell cell(const Vector3& p) const;
   void fill();
 
   TriangleTree tree_;

@@ -93,6 +93,24 @@ double TriangleTree::distance(const Vector3& p, double bound) const {
   return bound;
 }
 
+bool TriangleTree::is_nearer(const Vector3& p, double reach) const {
+  std::array<int, stack_size> stack;
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Node& node = nodes_[stack[--top]];
+    if (node.box.distance(p) >= reach) continue;
+    if (node.count == 0) {
+      stack[top++] = node.first;
+      stack[top++] = node.first + 1;
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i)
+      if ((closest_point(faces_[i].corners, p) - p).norm() < reach) return true;
+  }
+  return false;
+}
+
 bool TriangleTree::within(const Corners& triangle, double reach) const {
   const Box near = bounds(triangle).inflated(reach);
   std::array<int, stack_size> stack;

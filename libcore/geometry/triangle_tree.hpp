@@ -16,6 +16,9 @@ class TriangleTree {
   /// The distance from `p` to the surface, if it is below `bound`; else `bound`.
   double distance(const Vector3& p, double bound = 1e300) const;
 
+  /// Whether the surface comes nearer to `p` than `reach` metres: sooner told than how near.
+  bool is_nearer(const Vector3& p, double reach) const;
+
   /// Whether a triangle is no farther than `reach` metres from the surface, crosses or touches it.
   bool within(const Corners& triangle, double reach) const;
 

@@ -171,6 +171,7 @@ void read_belief(Reader& in, BeliefDescription& belief) {
   in.section("cell", [&](Reader& cell) { read_resolution(cell, belief.cell); });
   in.integer("max_cells", belief.max_cells, at_least_one);
   in.integer("particles", belief.particles, at_least_one);
+  in.integer("threads", belief.threads, not_negative);
   in.choice("likelihood", belief.likelihood, {"calibrated", "paper"});
 }
 

@@ -105,6 +105,7 @@ belief::Options belief_options(const BeliefDescription& b) {
   options.cells.position = b.cell.position;
   options.cells.angle = b.cell.angle;
   options.cells.most = static_cast<std::size_t>(b.max_cells);
+  options.cells.threads = b.threads;
   options.likelihood = b.likelihood == "paper" ? belief::Likelihood::paper : belief::Likelihood::calibrated;
   options.particles = static_cast<std::size_t>(b.particles);
   return options;

@@ -202,7 +202,7 @@ TEST(SavedBelief, ErrorsSayWhatIsWrong) {
   other[0] = 'X';
   newer[8] = 9;
   for (std::size_t i = 28; i < 36; ++i) nan[i] = 0xff;   // the first joint
-  for (std::size_t i = 77; i < 85; ++i) many[i] = 0x7f;  // how many observations
+  for (std::size_t i = 78; i < 86; ++i) many[i] = 0x7f;  // how many observations
   flipped[40] ^= 1;
   EXPECT_NE(error_of(m, other).find("magic"), std::string::npos);
   EXPECT_NE(error_of(m, newer).find("version"), std::string::npos);

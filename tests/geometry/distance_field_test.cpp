@@ -57,6 +57,11 @@ TEST_P(FieldLaw, ExactIsTheDistanceAndBoundsHoldIt) {
     const DistanceBounds at = field.bounds(p);
     ASSERT_LE(at.lower, exact + 1e-12);
     ASSERT_GE(at.upper, exact - 1e-12);
+    const DistanceBounds narrow = field.narrow_bounds(p);
+    ASSERT_LE(narrow.lower, exact + 1e-12);
+    ASSERT_GE(narrow.upper, exact - 1e-12);
+    ASSERT_GE(narrow.lower, at.lower - 1e-12);
+    ASSERT_LE(narrow.upper, at.upper + 1e-12);
     if (bounds(mesh).inflated(c.border).contains(p)) {
       ASSERT_LE(at.upper - at.lower, 1.74 * field.spacing());
     }
@@ -117,6 +122,7 @@ TEST(TriangleTree, DistancesAreRightBelowTheBoundAndTheBoundAbove) {
     const Vector3 p = random_point(tree.box().inflated(0.05), rng);
     const double exact = reference::surface_from_point(placed, p), bound = rng.uniform(0.0, 0.06);
     EXPECT_NEAR(tree.distance(p, bound), std::min(exact, bound), 1e-12);
+    EXPECT_EQ(tree.is_nearer(p, bound), exact < bound);
     EXPECT_EQ(tree.contains(p), reference::holds(shape, p));
     Corners t;
     for (Vector3& corner : t) corner = p + 0.02 * Vector3(rng.normal(), rng.normal(), rng.normal());

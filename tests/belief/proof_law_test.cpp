@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "belief/episode.hpp"
+
+/// What is proved of every pose that may have given a history, by looking into the cells.
+namespace tactus::test {
+namespace {
+
+using belief::Belief;
+using belief::Cell;
+using belief::CellBelief;
+using support::Rng;
+
+constexpr std::size_t many_tests = 200000;
+
+const std::shared_ptr<const belief::Model>& model() {
+  static const auto made =
+      small_model(belief::Kind::particles, {.roll_width = 0.4, .position_width = 0.04, .most_cells = 200});
+  return made;
+}
+
+const action::Task& task() { return *model()->task; }
+
+/// Poses drawn from all over the cells that reproduce the history exactly.
+std::vector<PoseVector> poses_of(const Belief& belief, int tried, Rng& rng) {
+  std::vector<PoseVector> poses;
+  for (int i = 0; i < tried; ++i) {
+    const PoseVector v = belief.cells().draw_in(belief.cells().draw_cell(rng), rng);
+    if (const auto found = belief::projected(task(), belief.history(), v, 0.0);
+        found && found->exact && belief.contains(geometry::pose_from(found->pose)))
+      poses.push_back(found->pose);
+  }
+  return poses;
+}
+
+/// That a pose's dimension `d` is below a bound: whatever has a bound between poses that it tells apart can be asked.
+struct Below {
+  std::size_t d;
+  double bound;
+
+  bool operator()(const PoseVector& v) const { return v[d] < bound; }
+  bool operator()(const CellBelief& cells, const Cell& cell) const {
+    return cell.centre[d] + cells.half_width(cell)[d] < bound;
+  }
+};
+
+bool prove(CellBelief& cells, const Belief& belief, const Below& below, std::size_t most_tests = many_tests) {
+  const CellBelief as_before = cells;
+  return cells.prove(
+      task(), belief.history(), [&](const Cell& cell) { return below(as_before, cell); }, most_tests);
+}
+
+TEST(Proof, HoldsForEveryPoseThatReproducesTheHistory) {
+  Rng rng(1);
+  int proved = 0, refuted = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Episode episode(model(), seed);
+    for (int i = 0; i < 6; ++i) {
+      episode.step();
+      const Belief& belief = episode.belief;
+      if (belief.cells().grid()) continue;
+      const std::vector<PoseVector> poses = poses_of(belief, 40, rng);
+      if (poses.empty()) continue;
+      for (const std::size_t d : {1u, 2u, 3u}) {
+        const PoseVector& some = poses[rng.below(poses.size())];
+        const Below below{d, some[d] + rng.uniform(-1.0, 4.0) * 0.002};
+        CellBelief cells = belief.cells();
+        if (!prove(cells, belief, below)) {
+          ++refuted;
+          EXPECT_EQ(cells.cells(), belief.cells().cells());
+          continue;
+        }
+        ++proved;
+        EXPECT_TRUE(below(episode.truth));
+        for (const PoseVector& v : poses) EXPECT_TRUE(below(v)) << "seed " << seed << ", action " << i;
+      }
+    }
+  }
+  EXPECT_GT(proved, 5);
+  EXPECT_GT(refuted, 5);
+}
+
+/// The cells that go are those of which no pose is left; the truth is never among them.
+TEST(Proof, KeepsTheTruth) {
+  for (std::uint64_t seed = 21; seed <= 28; ++seed) {
+    Episode episode(model(), seed);
+    for (int i = 0; i < 5; ++i) {
+      episode.step();
+      if (episode.belief.cells().grid()) continue;
+      CellBelief cells = episode.belief.cells();
+      if (!prove(cells, episode.belief, {1, episode.truth[1] + 0.004})) continue;
+      const bool is_held = !cells.all_of([&](const Cell& cell) {
+        return !scene::box_holds(cell.centre, cells.half_width(cell), geometry::pose_from(episode.truth), 1e-9);
+      });
+      EXPECT_TRUE(is_held) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Proof, IsTheSameOnAnyNumberOfThreads) {
+  const auto threaded = [](int threads) {
+    belief::Options options = model()->options;
+    options.cells.threads = threads;
+    return std::make_shared<const belief::Model>(model()->task, options);
+  };
+  const auto one = threaded(1), three = threaded(3);
+  for (const std::uint64_t seed : {31u, 32u, 33u}) {
+    Episode a(one, seed), b(three, seed);
+    for (int i = 0; i < 6; ++i) {
+      a.step(), b.step();
+      ASSERT_EQ(a.belief.save(), b.belief.save());
+      CellBelief cells_a = a.belief.cells(), cells_b = b.belief.cells();
+      const Below below{1, a.truth[1] + 0.003};
+      ASSERT_EQ(prove(cells_a, a.belief, below, 3000), prove(cells_b, b.belief, below, 3000));
+      ASSERT_EQ(cells_a.cells(), cells_b.cells());
+    }
+  }
+}
+
+TEST(Proof, IsGivenUpWithTooFewTests) {
+  Episode episode(model(), 41);
+  while (episode.belief.cells().grid()) episode.step();
+  CellBelief cells = episode.belief.cells();
+  EXPECT_FALSE(prove(cells, episode.belief, {1, episode.truth[1] + 0.001}, 1));
+}
+
+/// Cells too coarse to tell: with the pin in the hole the belief knows it all the same.
+TEST(Proof, TellsThatThePinIsInWhereTheCellsAreTooCoarse) {
+  const auto coarse =
+      small_model(belief::Kind::particles, {.roll_width = 0.4, .position_width = 0.04, .most_cells = 60});
+  int told = 0, beyond_the_cells = 0;
+  for (std::uint64_t seed = 51; seed <= 56; ++seed) {
+    Episode episode(coarse, seed);
+    for (int i = 0; i < 4; ++i) episode.step();
+    action::ActionLibrary library(*coarse->task);
+    const Pose truth = geometry::pose_from(episode.truth);
+    const action::Action action = insertion_at(*coarse->task, library, episode.belief.configuration(), truth);
+    episode.belief.step(action, {false, action.path.back()});
+    const Belief& belief = episode.belief;
+    told += belief.is_goal();
+    const Pose base_from_tool = coarse->task->base_from_tool(belief.configuration());
+    beyond_the_cells += belief.is_goal() && !belief.cells().all_of([&](const Cell& cell) {
+      return coarse->task->scene().is_seated(base_from_tool, geometry::pose_from(cell.centre),
+                                             belief.cells().half_width(cell));
+    });
+    EXPECT_EQ(Belief::restore(coarse, belief.save().data(), belief.save().size()).is_goal(), belief.is_goal());
+  }
+  EXPECT_GT(told, 2);
+  EXPECT_GT(beyond_the_cells, 0);
+}
+
+}  // namespace
+}  // namespace tactus::test
