@@ -11,13 +11,12 @@ import json
 import pathlib
 import re
 import signal
-import subprocess
 import sys
 
+import long_run
 import paper_figure
-from study import report
+from long_run import ROOT
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOLVERS = "rtdp-bel,rtdp-inad,tbl,frontier,rate"
 TITLES = {"whole": "Whole problem", "poses": "Particle phase", "voxels": "Volumetric phase"}
 
@@ -42,17 +41,7 @@ def results(asked, phase):
 
 
 def compare(asked, phase):
-    words = command(asked, phase)
-    print(f"\n==> {TITLES[phase]}\n    {' '.join(words)}", flush=True)
-    with open(asked.folder / f"{asked.scenario}_{phase}.log", "a", buffering=1) as log:
-        with subprocess.Popen(words, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
-            try:
-                report(process.stderr, log)
-            except BaseException:
-                process.kill()
-                raise
-    if process.returncode not in (0, 1):  # 1: some were not inserted
-        sys.exit(f"error: {phase}: tactus compare ended with status {process.returncode}; what it said is above and in {log.name}")
+    long_run.run(TITLES[phase], command(asked, phase), asked.folder / f"{asked.scenario}_{phase}.log")
 
 
 # --- the tables

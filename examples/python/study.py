@@ -6,16 +6,14 @@ Stop it at any time: started again with the same arguments it goes on where it w
 
 import argparse
 import json
-import pathlib
-import re
 import signal
 import statistics
-import subprocess
 import sys
-import time
 from typing import NamedTuple
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+import long_run
+from long_run import ROOT, span
+
 STUDY = ROOT / "build" / "study"
 JOBS = 2
 
@@ -44,36 +42,8 @@ def command(setting, seed, expansions):
             "--resume", "--json", f"build/study/{setting.name}.json"]
 
 
-def span(seconds):
-    return f"{seconds / 3600:.1f} h" if seconds > 5400 else f"{seconds / 60:.0f} min" if seconds > 90 else f"{seconds:.0f} s"
-
-
-def report(lines, log):
-    """Keeps every line in the log; shows the ends of trials, with the time that the rest will take."""
-    began, ended = time.monotonic(), 0
-    for line in lines:
-        log.write(line)
-        done = re.search(r"ended: .*; (\d+) of (\d+) trials", line)
-        if done:
-            ended += 1
-            left = (int(done[2]) - int(done[1])) * (time.monotonic() - began) / ended
-            print(f"    {line.strip()}, {span(left)} to go", flush=True)
-        elif not line.startswith("seed "):
-            print(f"    {line.strip()}", flush=True)
-
-
 def run(setting, seed, expansions):
-    words = command(setting, seed, expansions)
-    print(f"\n==> {setting.name}: {setting.trials} trials\n    {' '.join(words)}", flush=True)
-    with open(STUDY / f"{setting.name}.log", "a", buffering=1) as log:
-        with subprocess.Popen(words, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
-            try:
-                report(process.stderr, log)
-            except BaseException:
-                process.kill()
-                raise
-    if process.returncode not in (0, 1):  # 1: some were not inserted
-        sys.exit(f"error: {setting.name}: tactus run ended with status {process.returncode}; what it said is above and in {log.name}")
+    long_run.run(f"{setting.name}: {setting.trials} trials", command(setting, seed, expansions), STUDY / f"{setting.name}.log")
 
 
 # --- the table

@@ -12,21 +12,12 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr std::size_t least_trial = 24;     // projections after which it is asked whether they pay:
-constexpr std::size_t pays_from = 3;        // one in so many is exact
-constexpr double least_near = 0.001;        // m by which a pose may miss the history and serve for planning
-constexpr double near_share = 0.15;         // of a cell's radius by which it may
-constexpr double part_radius = 0.0015;      // m, of parts of cells from which poses are looked for else
-constexpr double least_step = -6.0;         // log2 of how much of a cell's width
-constexpr std::size_t least_share = 3;      // of the poses wanted: so many are made up from others
-constexpr double fine_radius = 0.0004;      // m, of cells any pose of which comes near enough as it is
-constexpr std::size_t unproved_share = 8;   // of them anywhere in a cell, for what no other speaks for
+constexpr double part_radius = 0.0015;      // m, of what is looked for inside cells
 constexpr double stops_per_waypoint = 8.0;  // that can be told apart
 constexpr std::size_t few_cells = 400;      // enough to tell what an observation left out would leave possible
 constexpr std::size_t few_at_first = 1u << 16;
-constexpr std::size_t tests_per_cell = 100;   // of a proof, for each cell that there is room for
-constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
-constexpr std::size_t tries_per_pose = 2;     // of those that come near, to agree with the history
+constexpr std::size_t parts_asked = 100;     // whether they are seated
+constexpr std::size_t tests_per_cell = 100;  // of a proof, for each cell that there is room for
 
 /// How unlikely it is to be stopped just there by a contact that is none, in bits: anywhere else on the way would have
 /// been as likely. A contact that is missed has no such choice.
@@ -76,6 +67,7 @@ void Belief::step(const Action& action, const Observation& observation) {
   if (!observation.contact && stop.segment > stop.last_free) next.q_ = observation.q;
   next.history_.push_back(trace_of(task(), action, observation, stop));
   if (!next.learn({&next.history_.back()}, model_->options.cells)) next.doubt();
+  next.look_closer();
   next.is_goal_ = next.is_seated() || next.prove_seated();
   *this = std::move(next);
 }
@@ -176,6 +168,18 @@ JointPath Belief::way_back() const {
   return way;
 }
 
+/// Goes on to cells of a millimetre or so where there is no room for all that are in between. Coarse ones can't be told
+/// from what touches them: most of them are empty.
+void Belief::look_closer() {
+  if (!cells_ || cells_->grid() || cells_->coarsest() <= part_radius) return;
+  const std::size_t most_tests = tests_per_cell * model_->options.cells.most;
+  support::Rng rng(fingerprint(history_, history_.size()));
+  if (cells_->estimated_tests(task(), history_, part_radius, rng) > static_cast<double>(most_tests)) return;
+  const auto fine = [this](const Cell& cell) { return cells_->radius(cell) <= part_radius; };
+  if (!cells_->look_inside(task(), history_, fine, 2 * most_tests)) return;
+  cells_->refine(task(), history_, [this](const CellBelief&) { return is_seated(); });
+}
+
 /// Whether the tool is seated at every pose of a cell.
 bool Belief::is_seated(const Pose& base_from_tool, const Cell& cell) const {
   return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre), cells_->half_width(cell));
@@ -187,90 +191,16 @@ bool Belief::is_seated() const {
   return cells_->all_of([&](const Cell& cell) { return is_seated(base_from_tool, cell); });
 }
 
-/// The same where the cells are too coarse to tell.
+/// The same where the cells are too coarse to tell. Not tried unless most of some parts of cells drawn by lot are
+/// seated.
 bool Belief::prove_seated() {
   if (!cells_ || cells_->grid() || history_.empty() || history_.back().contact) return false;
   const Pose base_from_tool = task().base_from_tool(q_);
   const auto seated = [&](const Cell& cell) { return is_seated(base_from_tool, cell); };
-  return cells_->prove(task(), history_, seated, tests_per_cell * model_->options.cells.most);
-}
-
-std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const {
-  std::vector<Pose> poses;
-  const double radius = model_->voxels->grid.half_diagonal();
-  const auto lacks = [&] { return poses.size() < count && deadline.used_fraction() < 0.5; };
-  std::size_t tried = 0;
-  for (std::size_t i = 0; i < samples_per_pose * count && tried < tries_per_pose * count && lacks(); ++i) {
-    const Pose pose = task().scene().prior.sample(rng);
-    if (!may_reproduce(task(), history_, pose, radius)) continue;
-    ++tried;
-    if (const auto found = projected(task(), history_, geometry::pose_vector(pose), least_near))
-      poses.push_back(geometry::pose_from(found->pose));
-  }
-  return poses;
-}
-
-/// What draws at random come to, by their worth for planning.
-struct Belief::Drawn {
-  std::vector<PoseVector> exact, near;
-
-  void add(const std::optional<Projection>& projection) {
-    if (projection) (projection->exact ? exact : near).push_back(projection->pose);
-  }
-  std::size_t size() const { return exact.size() + near.size(); }
-  const PoseVector& any(support::Rng& rng) const {
-    const std::size_t i = rng.below(size());
-    return i < exact.size() ? exact[i] : near[i - exact.size()];
-  }
-};
-
-/// A pose from a cell, brought into agreement with the history.
-std::optional<Projection> Belief::agreeing(const Cell& cell, double near, support::Rng& rng) const {
-  const PoseVector seed = cells_->draw_in(cell, rng);
-  if (cells_->radius(cell) > fine_radius) return projected(task(), history_, seed, near);
-  return Projection{seed, reproduces(task(), history_, geometry::pose_from(seed))};
-}
-
-/// A pose up to a cell's width off another, and mostly much less.
-PoseVector Belief::beside(const PoseVector& from, support::Rng& rng) const {
-  const Cell cell = cells_->draw_cell(rng);
-  const PoseVector inside = cells_->draw_in(cell, rng);
-  const double size = std::exp2(rng.uniform(least_step, 1.0));
-  PoseVector seed = from;
-  for (int d = 0; d < 6; ++d) seed[d] += size * (inside[d] - cell.centre[d]);
-  return seed;
-}
-
-std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known,
-                               const support::Deadline& deadline) const {
-  const double near = std::max(least_near, near_share * cells_->coarsest());
-  Drawn drawn;
-  for (std::size_t tried = 0; tried < count && deadline.used_fraction() < 0.5; ++tried) {
-    if (tried >= least_trial && drawn.exact.size() * pays_from < tried) break;
-    drawn.add(agreeing(cells_->draw_cell(rng), near, rng));
-  }
-  const std::size_t least = count / least_share;
-  const bool is_hard = drawn.exact.size() < least;
-  const auto lacks = [&](std::size_t wanted) {
-    return is_hard && drawn.size() < wanted && deadline.used_fraction() < 0.5;
-  };
-  for (std::size_t i = 0; i < known.size() && lacks(count - least); ++i)
-    drawn.add(projected(task(), history_, geometry::pose_vector(known[i]), near));
-  if (lacks(count))
-    for (const Cell& part : cells_->draw_parts(task(), history_, count, part_radius, rng, deadline))
-      if (lacks(count)) drawn.add(agreeing(part, near, rng));
-  for (std::size_t tried = 0; tried < count && lacks(least) && drawn.size() > 0; ++tried)
-    drawn.add(projected(task(), history_, beside(drawn.any(rng), rng), near));
-  const std::size_t unproved = is_hard ? count / unproved_share : 0;
-  std::vector<Pose> poses;
-  for (const PoseVector& v : drawn.exact)
-    if (poses.size() + unproved < count) poses.push_back(geometry::pose_from(v));
-  for (const PoseVector& v : drawn.near)
-    if (const Pose pose = geometry::pose_from(v); poses.size() + unproved < count && contains(pose))
-      poses.push_back(pose);
-  for (std::size_t i = 0; i < unproved || poses.size() < least; ++i)
-    poses.push_back(geometry::pose_from(cells_->draw_in(cells_->draw_cell(rng), rng)));
-  return poses;
+  support::Rng rng(fingerprint(history_, history_.size()));
+  const std::vector<Cell> parts = cells_->draw_parts(task(), history_, parts_asked, part_radius, rng);
+  if (2 * static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(), seated)) <= parts.size()) return false;
+  return cells_->look_inside(task(), history_, seated, tests_per_cell * model_->options.cells.most);
 }
 
 }  // namespace tactus::belief

@@ -118,12 +118,10 @@ class Belief {
   bool hand_over(const CellOptions& options);
   Belief doubting(const std::vector<std::size_t>& traces) const;
   std::optional<Belief> best_explanation(const std::vector<std::vector<std::size_t>>& ways) const;
-  struct Drawn;
-  std::optional<Projection> agreeing(const Cell& cell, double near, support::Rng& rng) const;
   bool is_seated(const Pose& base_from_tool, const Cell& cell) const;
   bool is_seated() const;
   bool prove_seated();
-  PoseVector beside(const PoseVector& from, support::Rng& rng) const;
+  void look_closer();
   void doubt();
 
   std::shared_ptr<const Model> model_;

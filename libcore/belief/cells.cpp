@@ -10,7 +10,10 @@
 namespace tactus::belief {
 namespace {
 
-constexpr std::size_t first_round = 16;  // of cells from all over, of a proof; each next round is twice as long
+constexpr std::size_t first_round = 16;  // of cells that are looked into; each next round is twice as long
+constexpr std::size_t lot = 200;         // of cells that stand for all
+constexpr std::size_t parts_per_cell =
+    10;  // that are kept where cells were looked into, for each there is room for else
 constexpr std::size_t stride = 61;
 
 /// The indices below `count` in long steps.
@@ -136,26 +139,18 @@ bool CellBelief::update(const Task& task, const std::vector<const Trace*>& trace
   return true;
 }
 
-/// Whether the cell may have given the whole history; settles what it can on the way. The trace that it can't have
-/// given moves to the front of `order`, to be the first that the next cell is asked for.
+/// Whether the cell may have given the whole history. The trace that it can't have given moves to the front of `order`,
+/// to be the first that the next cell is asked for.
 bool CellBelief::may_reproduce(const Task& task, const std::vector<Trace>& history, std::vector<std::size_t>& order,
-                               Cell& cell) const {
+                               const Cell& cell) const {
   const Pose pose = geometry::pose_from(cell.centre);
   const double r = radius(cell);
-  for (auto next = order.begin(); next != order.end(); ++next) {
-    const std::size_t i = *next;
-    const Trace& trace = history[i];
-    const std::uint64_t bit = i < 64 ? std::uint64_t{1} << i : 0;
-    const bool is_settled = (cell.settled & bit) != 0;
-    if (trace.doubted || (is_settled && !trace.contact)) continue;
-    std::size_t from = is_settled ? trace.touch : 0;
-    if (fit(task, trace, pose, r, from) == Fit::none) {
-      std::rotate(order.begin(), next, next + 1);
-      return false;
-    }
-    if (from == trace.touch) cell.settled |= bit;
-  }
-  return true;
+  const auto impossible = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
+    return !history[i].doubted && !belief::may_reproduce(task, history[i], pose, r);
+  });
+  if (impossible == order.end()) return true;
+  std::rotate(order.begin(), impossible, impossible + 1);
+  return false;
 }
 
 /// Halves the dimension along which the target's points move most.
@@ -244,17 +239,21 @@ std::vector<Cell> CellBelief::thinned(const std::vector<Cell>& cells, std::size_
 
 std::vector<Cell> CellBelief::draw_parts(const Task& task, const std::vector<Trace>& history, std::size_t count,
                                          double wanted, support::Rng& rng, const support::Deadline& deadline) const {
-  std::vector<Cell> parts;
-  if (size() <= count)
-    parts = cells();
-  else
-    while (parts.size() < count) parts.push_back(any_cell(rng));
+  std::vector<Cell> parts = by_lot(count, rng);
   const auto is_coarse = [&](const Cell& part) { return radius(part) > wanted && may_split(part); };
   while (std::any_of(parts.begin(), parts.end(), is_coarse) && deadline.used_fraction() < 0.5) {
     parts = halves_of_coarsest(task, history, parts, parts.size());
     if (parts.size() > 2 * count) parts = thinned(parts, count, rng);
   }
   return parts.size() > count ? thinned(parts, count, rng) : parts;
+}
+
+/// Whatever their weight; all if there are no more.
+std::vector<Cell> CellBelief::by_lot(std::size_t count, support::Rng& rng) const {
+  if (size() <= count) return cells();
+  std::vector<Cell> drawn;
+  while (drawn.size() < count) drawn.push_back(any_cell(rng));
+  return drawn;
 }
 
 /// Whatever its weight.
@@ -277,64 +276,94 @@ bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
   return true;
 }
 
-/// What a proof leaves of one cell.
-struct CellBelief::Rest {
-  bool any = false;       ///< a part that may have given the history
-  bool in_doubt = false;  ///< one of them may fail the test
+/// What may have given the history of one cell: parts that are fine enough.
+struct CellBelief::Inside {
+  std::vector<Cell> parts;
   std::size_t tests = 0;
+  bool is_known = false;  ///< all of it
 };
 
-CellBelief::Rest CellBelief::rest_of(const Task& task, const std::vector<Trace>& history, const Cell& whole,
-                                     const std::function<bool(const Cell&)>& passes, std::size_t most_tests,
-                                     std::vector<std::size_t>& order) const {
-  Rest rest;
-  std::vector<Cell> open, halves{whole};
-  for (;;) {
-    for (Cell& half : halves) {
-      if (passes(half)) {
-        rest.any = true;
-      } else if (++rest.tests; may_reproduce(task, history, order, half)) {
-        open.push_back(half);
-      }
-    }
-    if (open.empty()) return rest;
-    if (!may_split(open.back()) || rest.tests > most_tests) break;
-    halves.clear();
-    split(open.back(), halves);
+CellBelief::Inside CellBelief::inside(const Task& task, const std::vector<Trace>& history, const Cell& whole,
+                                      const std::function<bool(const Cell&)>& fine, std::size_t most_tests,
+                                      std::vector<std::size_t>& order) const {
+  Inside found;
+  std::vector<Cell> open{whole}, halves;
+  while (!open.empty()) {
+    const Cell cell = open.back();
     open.pop_back();
+    if (fine(cell)) {
+      found.parts.push_back(cell);
+      continue;
+    }
+    if (!may_split(cell) || found.tests >= most_tests) return found;
+    halves.clear();
+    split(cell, halves);
+    found.tests += halves.size();
+    for (const Cell& half : halves)
+      if (may_reproduce(task, history, order, half)) open.push_back(half);
   }
-  rest.any = rest.in_doubt = true;
-  return rest;
+  found.is_known = true;
+  return found;
 }
 
-bool CellBelief::prove(const Task& task, const std::vector<Trace>& history,
-                       const std::function<bool(const Cell&)>& passes, std::size_t most_tests) {
+bool CellBelief::look_inside(const Task& task, const std::vector<Trace>& history,
+                             const std::function<bool(const Cell&)>& fine, std::size_t most_tests) {
   if (grid_) return false;
   const std::vector<std::size_t> from_all_over = strided(cells_.size());
-  std::vector<Rest> rest(cells_.size());
+  std::vector<Inside> found(cells_.size());
   for (std::size_t first = 0, last = 0; first < cells_.size(); first = last) {
     last = std::min(cells_.size(), 2 * first + first_round);
     support::for_ranges(last - first, options_.threads, [&](std::size_t begin, std::size_t end) {
       std::vector<std::size_t> order = latest_first(history);
       for (std::size_t i = first + begin; i < first + end; ++i) {
         const std::size_t cell = from_all_over[i];
-        rest[cell] = rest_of(task, history, cells_[cell], passes, most_tests, order);
-        if (rest[cell].in_doubt) return;
+        found[cell] = inside(task, history, cells_[cell], fine, most_tests, order);
+        if (!found[cell].is_known) return;
       }
     });
     for (std::size_t i = first; i < last; ++i) {
-      const Rest& found = rest[from_all_over[i]];
-      if (found.in_doubt || found.tests > most_tests) return false;
-      most_tests -= found.tests;
+      const Inside& cell = found[from_all_over[i]];
+      if (!cell.is_known || cell.tests > most_tests) return false;
+      most_tests -= cell.tests;
     }
   }
-  std::vector<Cell> kept;
+  return replace(found);
+}
+
+/// By their parts, those with the fewest first, as long as there is room; false (and unchanged) if there are none.
+bool CellBelief::replace(const std::vector<Inside>& found) {
+  std::vector<std::size_t> fewest_first;
   for (std::size_t i = 0; i < cells_.size(); ++i)
-    if (rest[i].any) kept.push_back(cells_[i]);
-  if (kept.empty()) return false;
+    if (!found[i].parts.empty()) fewest_first.push_back(i);
+  if (fewest_first.empty()) return false;
+  std::stable_sort(fewest_first.begin(), fewest_first.end(),
+                   [&](std::size_t a, std::size_t b) { return found[a].parts.size() < found[b].parts.size(); });
+  std::vector<Cell> kept;
+  std::size_t whole = fewest_first.size();
+  for (const std::size_t i : fewest_first) {
+    --whole;
+    if (kept.size() + found[i].parts.size() + whole <= parts_per_cell * options_.most)
+      kept.insert(kept.end(), found[i].parts.begin(), found[i].parts.end());
+    else
+      kept.push_back(cells_[i]);
+  }
   cells_ = std::move(kept);
   weigh();
   return true;
+}
+
+double CellBelief::estimated_tests(const Task& task, const std::vector<Trace>& history, double wanted,
+                                   support::Rng& rng) const {
+  std::vector<Cell> parts = by_lot(lot, rng);
+  double all = static_cast<double>(size()), tests = 0.0;
+  while (!parts.empty() && coarsest(parts) > wanted) {
+    const auto before = static_cast<double>(parts.size());
+    parts = halves_of_coarsest(task, history, parts, parts.size());
+    tests += 2.0 * all;
+    all *= static_cast<double>(parts.size()) / before;
+    if (parts.size() > 2 * lot) parts = thinned(parts, lot, rng);
+  }
+  return tests;
 }
 
 }  // namespace tactus::belief

@@ -13,16 +13,13 @@ namespace tactus::belief {
 struct Cell {
   PoseVector centre{};
   std::array<std::uint8_t, 6> splits{};
-  /// A bit for each of the first 64 traces of the history: no pose of the cell is touched where the robot was free.
-  /// What need not be asked again; follows from the rest, and is not compared.
-  std::uint64_t settled = 0;
-  bool operator==(const Cell& other) const { return centre == other.centre && splits == other.splits; }
+  bool operator==(const Cell& other) const = default;
 };
 
 struct CellOptions {
   double position = 0.004;               ///< initial full width, m
   double angle = 0.06;                   ///< initial full width, rad
-  std::size_t most = 20000;              ///< cells are split while there are fewer than these
+  std::size_t most = 20000;              ///< cells are split while there are fewer; ten times that for `look_inside`
   std::size_t most_at_first = 1u << 21;  ///< initial cells are widened until there are no more than these
   double finest_radius = 0.00025;        ///< m: no cell with a smaller radius is split
   int threads = 1;                       ///< that test cells; 0: as many as the machine has. The answers are the same
@@ -62,12 +59,16 @@ class CellBelief {
   bool refine(const Task& task, const std::vector<Trace>& history,
               const std::function<bool(const CellBelief&)>& enough = {});
 
-  /// Whether each pose that may have given the history passes a test. `passes` is asked of cells and errs to false;
-  /// those that fail are split, depth first, down to the finest, so that it takes no memory. Given up (false) after
-  /// some `most_tests` of parts against the history. If true, cells of which nothing is left go; else nothing is
-  /// changed.
-  bool prove(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& passes,
-             std::size_t most_tests);
+  /// Looks into the cells, depth first, so that it takes no more room than what is found: they are split until they are
+  /// `fine`, and the parts tested against the whole history. Cells of which nothing is left go, the others are replaced
+  /// by their parts as long as there is room. Whether that succeeded, that is, whether every pose that may have given
+  /// the history lies in a part that is fine; if not (one of the finest is not fine, or some `most_tests` were made)
+  /// nothing is changed. So it proves whatever can be asked of a cell.
+  bool look_inside(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& fine,
+                   std::size_t most_tests);
+
+  /// How many tests it would take to look for parts of at most `radius` (m), by what some cells take.
+  double estimated_tests(const Task& task, const std::vector<Trace>& history, double radius, support::Rng& rng) const;
 
   Cell draw_cell(support::Rng& rng) const;  ///< by weight
   PoseVector draw_in(const Cell& cell, support::Rng& rng) const;
@@ -76,7 +77,8 @@ class CellBelief {
   /// may have given the history: cells are split, the parts tested, and again and again all but `count` of them left
   /// out by lot. Empty if none was met. Stops early, with coarser parts, once half of a budget in seconds is used up.
   std::vector<Cell> draw_parts(const Task& task, const std::vector<Trace>& history, std::size_t count, double radius,
-                               support::Rng& rng, const support::Deadline& deadline) const;
+                               support::Rng& rng,
+                               const support::Deadline& deadline = support::Deadline::unlimited()) const;
 
   const std::optional<CellGrid>& grid() const { return grid_; }  ///< none once the cells are a list
 
@@ -91,11 +93,13 @@ class CellBelief {
   std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
                                        const std::vector<Cell>& cells, std::size_t most) const;
   bool may_reproduce(const Task& task, const std::vector<Trace>& history, std::vector<std::size_t>& order,
-                     Cell& cell) const;
-  struct Rest;
-  Rest rest_of(const Task& task, const std::vector<Trace>& history, const Cell& whole,
-               const std::function<bool(const Cell&)>& passes, std::size_t most_tests,
-               std::vector<std::size_t>& order) const;
+                     const Cell& cell) const;
+  struct Inside;
+  Inside inside(const Task& task, const std::vector<Trace>& history, const Cell& whole,
+                const std::function<bool(const Cell&)>& fine, std::size_t most_tests,
+                std::vector<std::size_t>& order) const;
+  bool replace(const std::vector<Inside>& found);
+  std::vector<Cell> by_lot(std::size_t count, support::Rng& rng) const;
   Cell any_cell(support::Rng& rng) const;
   std::vector<Cell> thinned(const std::vector<Cell>& cells, std::size_t count, support::Rng& rng) const;
   void list_when_few();
