@@ -12,11 +12,10 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr double part_radius = 0.0015;      // m, of what is looked for inside cells
 constexpr double stops_per_waypoint = 8.0;  // that can be told apart
 constexpr std::size_t few_cells = 400;      // enough to tell what an observation left out would leave possible
 constexpr std::size_t few_at_first = 1u << 16;
-constexpr std::size_t parts_asked = 100;     // whether they are seated
+constexpr std::size_t parts_asked = 400;     // whether they are seated
 constexpr std::size_t tests_per_cell = 100;  // of a proof, for each cell that there is room for
 
 /// How unlikely it is to be stopped just there by a contact that is none, in bits: anywhere else on the way would have
@@ -198,7 +197,7 @@ bool Belief::prove_seated() {
   const Pose base_from_tool = task().base_from_tool(q_);
   const auto seated = [&](const Cell& cell) { return is_seated(base_from_tool, cell); };
   support::Rng rng(fingerprint(history_, history_.size()));
-  const std::vector<Cell> parts = cells_->draw_parts(task(), history_, parts_asked, part_radius, rng);
+  const std::vector<Cell> parts = cells_->draw_parts(task(), history_, parts_asked, fine_radius, rng);
   if (2 * static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(), seated)) <= parts.size()) return false;
   return cells_->look_inside(task(), history_, seated, tests_per_cell * model_->options.cells.most);
 }

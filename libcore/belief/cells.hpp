@@ -16,6 +16,10 @@ struct Cell {
   bool operator==(const Cell& other) const = default;
 };
 
+/// Radii (m) of parts of cells: one that tells most of what touches it, and one any pose of which agrees with the
+/// history as far as planning can use.
+inline constexpr double part_radius = 0.0015, fine_radius = 0.0004;
+
 struct CellOptions {
   double position = 0.004;               ///< initial full width, m
   double angle = 0.06;                   ///< initial full width, rad
