@@ -24,6 +24,13 @@ std::vector<std::size_t> strided(std::size_t count) {
   return indices;
 }
 
+std::vector<Cell> chosen(const std::vector<Cell>& cells, const std::vector<char>& which) {
+  std::vector<Cell> result;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (which[i]) result.push_back(cells[i]);
+  return result;
+}
+
 std::vector<std::size_t> latest_first(const std::vector<Trace>& history) {
   std::vector<std::size_t> order(history.size());
   std::iota(order.rbegin(), order.rend(), std::size_t{0});
@@ -124,15 +131,17 @@ bool CellBelief::update(const Task& task, const std::vector<const Trace*>& trace
     weigh();
     return true;
   }
-  std::vector<Cell> kept;
-  for (const Cell& cell : cells_) {
-    const Pose pose = geometry::pose_from(cell.centre);
-    const double r = radius(cell);
-    if (excludes && excludes(pose, r)) continue;
-    if (std::all_of(traces.begin(), traces.end(),
-                    [&](const Trace* trace) { return belief::may_reproduce(task, *trace, pose, r); }))
-      kept.push_back(cell);
-  }
+  std::vector<char> is_possible(cells_.size());
+  support::for_ranges(cells_.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Pose pose = geometry::pose_from(cells_[i].centre);
+      const double r = radius(cells_[i]);
+      is_possible[i] = !(excludes && excludes(pose, r)) &&
+                       std::all_of(traces.begin(), traces.end(),
+                                   [&](const Trace* t) { return belief::may_reproduce(task, *t, pose, r); });
+    }
+  });
+  std::vector<Cell> kept = chosen(cells_, is_possible);
   if (kept.empty()) return false;
   cells_ = std::move(kept);
   weigh();
@@ -151,6 +160,12 @@ bool CellBelief::may_reproduce(const Task& task, const std::vector<Trace>& histo
   if (impossible == order.end()) return true;
   std::rotate(order.begin(), impossible, impossible + 1);
   return false;
+}
+
+/// Of those that may be split.
+bool CellBelief::any_coarser(const std::vector<Cell>& cells, double wanted) const {
+  return std::any_of(cells.begin(), cells.end(),
+                     [&](const Cell& cell) { return radius(cell) > wanted && may_split(cell); });
 }
 
 /// Halves the dimension along which the target's points move most.
@@ -219,8 +234,8 @@ std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::ve
     std::vector<std::size_t> order = latest_first(history);
     for (std::size_t i = begin; i < end; ++i) is_possible[i] = may_reproduce(task, history, order, candidates[i]);
   });
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (is_possible[i]) kept.push_back(candidates[i]);
+  const std::vector<Cell> possible = chosen(candidates, is_possible);
+  kept.insert(kept.end(), possible.begin(), possible.end());
   return kept;
 }
 
@@ -240,8 +255,7 @@ std::vector<Cell> CellBelief::thinned(const std::vector<Cell>& cells, std::size_
 std::vector<Cell> CellBelief::draw_parts(const Task& task, const std::vector<Trace>& history, std::size_t count,
                                          double wanted, support::Rng& rng, const support::Deadline& deadline) const {
   std::vector<Cell> parts = by_lot(count, rng);
-  const auto is_coarse = [&](const Cell& part) { return radius(part) > wanted && may_split(part); };
-  while (std::any_of(parts.begin(), parts.end(), is_coarse) && deadline.used_fraction() < 0.5) {
+  while (any_coarser(parts, wanted) && deadline.used_fraction() < 0.5) {
     parts = halves_of_coarsest(task, history, parts, parts.size());
     if (parts.size() > 2 * count) parts = thinned(parts, count, rng);
   }
@@ -264,10 +278,9 @@ Cell CellBelief::any_cell(support::Rng& rng) const {
 
 bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
                         const std::function<bool(const CellBelief&)>& enough) {
-  const auto is_coarse = [this](const Cell& cell) { return may_split(cell); };
   const std::size_t least_room = std::max<std::size_t>(1, options_.most / 16);
   while (!grid_ && cells_.size() + least_room <= options_.most && !(enough && enough(*this)) &&
-         std::any_of(cells_.begin(), cells_.end(), is_coarse)) {
+         any_coarser(cells_, options_.finest_radius)) {
     std::vector<Cell> kept = halves_of_coarsest(task, history, cells_, options_.most - cells_.size());
     if (kept.empty()) return false;
     cells_ = std::move(kept);
@@ -356,7 +369,7 @@ double CellBelief::estimated_tests(const Task& task, const std::vector<Trace>& h
                                    support::Rng& rng) const {
   std::vector<Cell> parts = by_lot(lot, rng);
   double all = static_cast<double>(size()), tests = 0.0;
-  while (!parts.empty() && coarsest(parts) > wanted) {
+  while (any_coarser(parts, wanted)) {
     const auto before = static_cast<double>(parts.size());
     parts = halves_of_coarsest(task, history, parts, parts.size());
     tests += 2.0 * all;

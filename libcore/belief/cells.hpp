@@ -94,6 +94,7 @@ class CellBelief {
   bool may_split(const Cell& cell) const { return radius(cell) > options_.finest_radius; }
   void split(const Cell& cell, std::vector<Cell>& halves) const;
   double coarsest(const std::vector<Cell>& cells) const;
+  bool any_coarser(const std::vector<Cell>& cells, double wanted) const;
   std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
                                        const std::vector<Cell>& cells, std::size_t most) const;
   bool may_reproduce(const Task& task, const std::vector<Trace>& history, std::vector<std::size_t>& order,
