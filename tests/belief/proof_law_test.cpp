@@ -125,6 +125,48 @@ TEST(Proof, IsGivenUpWithTooFewTests) {
   EXPECT_FALSE(prove(cells, episode.belief, {1, episode.truth[1] + 0.001}, 1));
 }
 
+TEST(LookInside, TakesAboutAsManyTestsAsEstimated) {
+  constexpr double radius = 0.0015;
+  Rng rng(6);
+  belief::CellOptions options = model()->options.cells;
+  options.most = 100000;
+  for (const std::uint64_t seed : {61u, 62u, 63u, 64u, 65u, 66u}) {
+    Episode episode(model(), seed);
+    for (int i = 0; i < 3; ++i) episode.step();
+    const std::vector<belief::Trace>& history = episode.belief.history();
+    CellBelief coarse(task(), options);
+    ASSERT_TRUE(coarse.update(task(), belief::believed(history)));
+    ASSERT_GT(coarse.coarsest(), 1.3 * radius);
+    const double estimate = coarse.estimated_tests(task(), history, radius, rng);
+    const auto succeeds_with = [&](double tests) {
+      CellBelief cells = coarse;
+      return cells.look_inside(
+          task(), history, [&](const Cell& cell) { return coarse.radius(cell) <= radius; },
+          static_cast<std::size_t>(tests));
+    };
+    EXPECT_TRUE(succeeds_with(2.0 * estimate)) << "seed " << seed << ", " << estimate;
+    EXPECT_FALSE(succeeds_with(estimate / 2.0)) << "seed " << seed << ", " << estimate;
+  }
+}
+
+TEST(LookInside, ReplacesCellsByTheirPartsAndKeepsTheTruthInOne) {
+  constexpr double radius = 0.0012;
+  for (const std::uint64_t seed : {71u, 72u, 73u, 74u}) {
+    Episode episode(model(), seed);
+    for (int i = 0; i < 4; ++i) episode.step();
+    CellBelief cells = episode.belief.cells();
+    if (cells.grid()) continue;
+    const double volume = cells.volume();
+    const auto fine = [&](const Cell& cell) { return cells.radius(cell) <= radius; };
+    if (!cells.look_inside(task(), episode.belief.history(), fine, many_tests)) continue;
+    EXPECT_LE(cells.volume(), volume * (1.0 + 1e-9));
+    EXPECT_LE(cells.size(), 2000u);
+    EXPECT_FALSE(cells.all_of([&](const Cell& cell) {
+      return !scene::box_holds(cell.centre, cells.half_width(cell), geometry::pose_from(episode.truth), 1e-9);
+    }));
+  }
+}
+
 /// Cells too coarse to tell: with the pin in the hole the belief knows it all the same.
 TEST(Proof, TellsThatThePinIsInWhereTheCellsAreTooCoarse) {
   const auto coarse =
