@@ -48,7 +48,8 @@ Task::Task(scene::Scene scene, TaskOptions options)
       bodies_(std::make_shared<contact::RobotBodies>(scene_.robot, scene_.tool_link, scene_.tool,
                                                      scene::target_region(scene_, Pose::Identity()))),
       target_contact_(std::make_unique<contact::TargetContact>(bodies_, scene_.target.mesh, options_.contact_margin)),
-      frame_(scene::search_frame(scene_, options_.actions.standoff)) {
+      frame_(scene::search_frame(scene_, options_.actions.standoff)),
+      target_diameter_(geometry::diameter(scene_.target.mesh)) {
   const std::string collision = known_world_->describe_collision(scene_.start);
   if (!collision.empty())
     throw Error(Status::start_in_collision, "robot.start: found " + collision +

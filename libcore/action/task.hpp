@@ -73,6 +73,7 @@ class Task {
   const contact::RobotBodies& bodies() const { return *bodies_; }
   const contact::TargetContact& target_contact() const { return *target_contact_; }
   const scene::SearchFrame& frame() const { return frame_; }
+  double target_diameter() const { return target_diameter_; }  ///< D_max of the paper, m
   const JointVector& home() const {
     return home_;
   }  ///< a free configuration at standoff, in the arm's posture for the search
@@ -93,6 +94,7 @@ class Task {
   std::shared_ptr<const contact::RobotBodies> bodies_;
   std::unique_ptr<const contact::TargetContact> target_contact_;
   scene::SearchFrame frame_;
+  double target_diameter_;
   JointVector home_;
 };
 

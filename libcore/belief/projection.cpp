@@ -148,7 +148,7 @@ PoseVector inside(const scene::Prior& prior, PoseVector v) {
 
 std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed,
                                     double near) {
-  const double lever = 0.5 * geometry::diameter(task.scene().target.mesh);
+  const double lever = 0.5 * task.target_diameter();
   PoseVector at = inside(task.scene().prior, seed);
   double before = 0.0;
   for (int step = 0; step < steps; ++step) {

@@ -44,8 +44,7 @@ double cover_radius(const geometry::Mesh& mesh, const std::vector<VoxelModel::In
 }  // namespace
 
 VoxelModel::VoxelModel(const Task& task, double voxel_size)
-    : grid(scene::target_region(task.scene(), Pose::Identity()), voxel_size),
-      diameter(geometry::diameter(task.scene().target.mesh)) {
+    : grid(scene::target_region(task.scene(), Pose::Identity()), voxel_size), diameter(task.target_diameter()) {
   const geometry::Mesh& mesh = task.scene().target.mesh;
   interior = interior_points(task.target_contact().field());
   cover = cover_radius(mesh, interior, grid.half_diagonal(), diameter);
