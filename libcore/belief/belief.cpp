@@ -16,7 +16,7 @@ constexpr double stops_per_waypoint = 8.0;  // that can be told apart
 constexpr std::size_t few_cells = 400;      // enough to tell what an observation left out would leave possible
 constexpr std::size_t few_at_first = 1u << 16;
 constexpr std::size_t parts_asked = 400;     // whether they are seated
-constexpr std::size_t tests_per_cell = 100;  // of a proof, for each cell that there is room for
+constexpr std::size_t tests_per_cell = 100;  // of parts when cells are looked into, for each cell there is room for
 
 /// How unlikely it is to be stopped just there by a contact that is none, in bits: anywhere else on the way would have
 /// been as likely. A contact that is missed has no such choice.
