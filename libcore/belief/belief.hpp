@@ -91,9 +91,10 @@ class Belief {
 
   /// Up to `count` poses drawn from all over the cells (phase 2 only): those that reproduce the whole history exactly
   /// first, then those that miss it by no more than a millimetre or 15 % of the coarsest cell's radius. Where exact
-  /// ones are hard to find, an eighth are anywhere in a cell, so that no part of the belief goes without a pose.
-  /// `known`: poses drawn for an earlier state of this belief; they are brought back to the history where it is hard to
-  /// find poses afresh. Looks no further once half of a budget in seconds is used up.
+  /// ones are hard to find, those of fine parts of cells, by lot from all over; if there are too few parts too, an
+  /// eighth are anywhere in a cell, so that no part of the belief goes without a pose. `known`: poses drawn for an
+  /// earlier state of this belief; they are brought back to the history where it is hard to find poses afresh. Looks no
+  /// further once half of a budget in seconds is used up.
   std::vector<Pose> draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known = {},
                          const support::Deadline& deadline = support::Deadline::unlimited()) const;
 
