@@ -4,10 +4,10 @@
 namespace tactus::contact {
 namespace {
 
-Pose placed(double pitch, const std::array<int, 3>& at, const Eigen::Matrix3d& turn) {
+Pose placed(const Vector3& pitch, const std::array<int, 3>& at, const Eigen::Matrix3d& turn) {
   Pose pose = Pose::Identity();
   pose.linear() = turn;
-  pose.translation() = pitch * Vector3(at[0], at[1], at[2]);
+  pose.translation() = pitch.cwiseProduct(Vector3(at[0], at[1], at[2]));
   return pose;
 }
 
@@ -39,11 +39,27 @@ Pose Lattice::base_from_target(const LatticePose& target) const {
 }
 
 Pose Lattice::base_from_tool(const LatticePose& tool) const {
-  return base_from_lattice * placed(pitch, tool.at, tool_turns[tool.turn]);
+  return base_from_lattice * placed(pitch / parts, tool.at, tool_turns[tool.turn]);
 }
 
-Pose Lattice::target_from_tool(const std::array<int, 3>& offset, int target_turn, int tool_turn) const {
-  return placed(pitch, offset, target_turns[target_turn]).inverse() * placed(pitch, {}, tool_turns[tool_turn]);
+Lattice::Stand Lattice::stand(const LatticePose& tool) const {
+  Stand stand{{}, tool.turn};
+  for (int d = 0; d < 3; ++d) {
+    const int part = (tool.at[d] % parts + parts) % parts;
+    stand.at[d] = (tool.at[d] - part) / parts;
+    stand.way = stand.way * parts + part;
+  }
+  return stand;
+}
+
+Vector3 Lattice::past(int way) const {
+  return pitch.cwiseProduct(Vector3(way / (parts * parts) % parts, way / parts % parts, way % parts)) / parts;
+}
+
+Pose Lattice::target_from_tool(const std::array<int, 3>& offset, int target_turn, int way) const {
+  Pose tool = placed(pitch, {}, tool_turns[turn_of(way)]);
+  tool.translation() = past(way);
+  return placed(pitch, offset, target_turns[target_turn]).inverse() * tool;
 }
 
 }  // namespace tactus::contact

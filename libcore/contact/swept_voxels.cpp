@@ -188,7 +188,7 @@ SweptVoxels swept_voxels(const RobotBodies& bodies, const BodyPath& path, const 
   return Sweep(bodies, path, grid, kernel).swept();
 }
 
-std::vector<std::uint32_t> entered_of(const SweptVoxels& swept, const Bitset& set, const kernel::VoxelKernel& kernel) {
+std::vector<std::uint32_t> entered_of(const SweptVoxels& swept, const Bitset& set, const kernel::SetKernel& kernel) {
   std::vector<std::uint32_t> counts(swept.words_by.size());
   kernel.count({swept.word.data(), swept.mask.data()}, swept.words_by.data(), counts.size(), set.words().data(),
                counts.data());

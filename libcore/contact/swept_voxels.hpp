@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/body_path.hpp"
+#include "contact/kernel/sets.hpp"
 #include "contact/kernel/voxels.hpp"
 #include "geometry/voxel_grid.hpp"
 #include "support/bitset.hpp"
@@ -35,7 +36,7 @@ SweptVoxels swept_voxels(const RobotBodies& bodies, const BodyPath& path, const 
 
 /// |S(q_i, a) n set| by waypoint. O(words swept), about 1 ns a word.
 std::vector<std::uint32_t> entered_of(const SweptVoxels& swept, const Bitset& set,
-                                      const kernel::VoxelKernel& kernel = kernel::fastest_voxel_kernel());
+                                      const kernel::SetKernel& kernel = kernel::fastest_set_kernel());
 
 /// Voxels that may hold the point of a contact at waypoint `stop` after the robot was free at `stop - 1`: centres
 /// within half a diagonal and `slack` of the surface at the stop, and not deeper than that inside the robot before it.

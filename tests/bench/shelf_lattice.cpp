@@ -40,14 +40,14 @@ LatticeMotion along(LatticePose from, const std::array<int, 3>& step) {
 
 /// Across the lattice in x and in y by turns, and every fifth straight in, in steps of 10 mm and 2 mm.
 std::vector<LatticeMotion> motions_over(const Lattice& lattice, double depth, Rng& rng) {
-  const int stride = static_cast<int>(std::lround(0.01 / lattice.pitch));
-  const int inwards = std::max(1, static_cast<int>(std::lround(0.002 / lattice.pitch)));
+  const int stride = static_cast<int>(std::lround(0.01 / lattice.pitch.x()));
+  const int inwards = std::max(1, static_cast<int>(std::lround(0.002 / lattice.pitch.z())));
   std::vector<LatticeMotion> motions;
   for (std::size_t i = 0; i < motion_count; ++i) {
     LatticePose from;
     for (std::size_t d = 0; d < 2; ++d)
       from.at[d] = static_cast<int>(rng.below(static_cast<std::uint64_t>(lattice.count[d])));
-    from.at[2] = lattice.count[2] / 2 + static_cast<int>(std::lround((depth - tip) / lattice.pitch));
+    from.at[2] = lattice.count[2] / 2 + static_cast<int>(std::lround((depth - tip) / lattice.pitch.z()));
     from.turn = static_cast<int>(rng.below(lattice.tool_turns.size()));
     std::array<int, 3> step{};
     if (i % 5 == 4) {
@@ -76,7 +76,7 @@ LatticeSetting setting_on(Lattice lattice, double depth, std::uint64_t seed) {
 
 LatticeSetting small_lattice(std::uint64_t seed) {
   Lattice lattice;
-  lattice.pitch = 0.005;
+  lattice.pitch.setConstant(0.005);
   lattice.count = {20, 20, 20};
   lattice.target_turns = target_turns(5, 7.0 * degree);
   lattice.tool_turns = {tool_turn(0.017), tool_turn(-0.031)};
@@ -85,7 +85,7 @@ LatticeSetting small_lattice(std::uint64_t seed) {
 
 LatticeSetting shelf_lattice(std::uint64_t seed) {
   Lattice lattice;
-  lattice.pitch = 0.002;
+  lattice.pitch.setConstant(0.002);
   lattice.count = {250, 250, 1};
   lattice.target_turns = target_turns(120, 3.0 * degree);
   lattice.tool_turns = {tool_turn(0.017)};

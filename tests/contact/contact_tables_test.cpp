@@ -47,7 +47,8 @@ struct LatticeCase {
 Lattice random_lattice(Rng& rng) {
   Lattice lattice;
   lattice.base_from_lattice = random_pose(rng, 0.5);
-  lattice.pitch = rng.uniform(0.003, 0.006);
+  for (double& pitch : lattice.pitch) pitch = rng.uniform(0.003, 0.006);
+  lattice.parts = 1 + static_cast<int>(rng.below(3));
   lattice.count = {10 + static_cast<int>(rng.below(80)), 5 + static_cast<int>(rng.below(8)),
                    1 + static_cast<int>(rng.below(3))};
   const Eigen::Matrix3d first = random_pose(rng, 0.0).linear();
@@ -63,7 +64,7 @@ LatticeMotion random_motion(const Lattice& lattice, Rng& rng) {
   LatticePose pose;
   std::array<int, 3> step{};
   for (std::size_t d = 0; d < 3; ++d) {
-    pose.at[d] = static_cast<int>(rng.below(static_cast<std::uint64_t>(lattice.count[d]))) - 4;
+    pose.at[d] = lattice.parts * (static_cast<int>(rng.below(static_cast<std::uint64_t>(lattice.count[d]))) - 4);
     step[d] = static_cast<int>(rng.below(5)) - 2;
   }
   LatticeMotion motion;
@@ -126,8 +127,9 @@ TEST(Lattice, OffsetsAreWhatTheToolIsSeenAt) {
   for (int i = 0; i < 100; ++i) {
     const LatticePose tool = random_motion(lattice, rng).back();
     const LatticePose target = lattice.cell(lattice.index({{3, 2, 0}, static_cast<int>(rng.below(3))}));
+    const Lattice::Stand stand = lattice.stand(tool);
     const Pose seen = lattice.target_from_tool(
-        {target.at[0] - tool.at[0], target.at[1] - tool.at[1], target.at[2] - tool.at[2]}, target.turn, tool.turn);
+        {target.at[0] - stand.at[0], target.at[1] - stand.at[1], target.at[2] - stand.at[2]}, target.turn, stand.way);
     EXPECT_TRUE(seen.isApprox(lattice.base_from_target(target).inverse() * lattice.base_from_tool(tool), 1e-9));
   }
 }

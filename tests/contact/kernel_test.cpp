@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "contact/contact_cases.hpp"
+#include "contact/kernel/sets.hpp"
 
 /// Every kernel that the machine has gives the bits of the portable one, and bounds that hold.
 namespace tactus::test {
@@ -190,6 +191,36 @@ INSTANTIATE_TEST_SUITE_P(, KernelLaw, testing::ValuesIn(supported_kernels()),
 TEST(Kernels, TheFastestIsTheFirstThatTheMachineHas) {
   EXPECT_EQ(&kernel::fastest(), supported_kernels().front());
   EXPECT_EQ(supported_kernels().back(), &kernel::portable);
+}
+
+TEST(SetKernels, TakeTheMembersWhoseBitIsSet) {
+  Rng rng(12);
+  const auto random_words = [&rng](std::size_t count) {
+    std::vector<std::uint64_t> words(count);
+    for (std::uint64_t& word : words) word = rng.next() & rng.next();
+    return words;
+  };
+  for (int round = 0; round < 200; ++round) {
+    const std::size_t rows = rng.below(40);
+    const int shift = static_cast<int>(rng.below(64));
+    const std::vector<std::uint64_t> low = random_words(rows), high = random_words(rows), members = random_words(rows);
+    std::vector<std::uint64_t> plain(rows);
+    std::uint64_t plain_any = 0;
+    for (std::size_t row = 0; row < rows; ++row)
+      for (int bit = 0; bit < 64; ++bit) {
+        const int from = bit + shift;
+        const bool is_set = ((from < 64 ? low[row] >> from : high[row] >> (from - 64)) & 1) != 0;
+        if (is_set && (members[row] >> bit & 1) != 0) plain[row] |= std::uint64_t{1} << bit;
+        plain_any |= plain[row];
+      }
+    for (const contact::kernel::SetKernel* const* kernel = contact::kernel::set_kernels(); *kernel; ++kernel) {
+      if (!(*kernel)->supported()) continue;
+      std::vector<std::uint64_t> left = members, taken(rows);
+      ASSERT_EQ((*kernel)->take(low.data(), high.data(), shift, rows, left.data(), taken.data()), plain_any);
+      ASSERT_EQ(taken, plain) << (*kernel)->name;
+      for (std::size_t row = 0; row < rows; ++row) ASSERT_EQ(left[row], members[row] & ~plain[row]) << (*kernel)->name;
+    }
+  }
 }
 
 }  // namespace

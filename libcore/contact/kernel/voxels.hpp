@@ -54,12 +54,6 @@ struct BlockFound {
   std::uint16_t inside, undecided;  ///< open voxels
 };
 
-/// Members of a set in words of 64.
-struct SparseWords {
-  const std::uint32_t* word;
-  const std::uint64_t* mask;
-};
-
 struct VoxelKernel {
   const char* name;
 
@@ -70,10 +64,6 @@ struct VoxelKernel {
   /// again. What is found inside is no longer open. Returns how many blocks were `found`, at most those of the range.
   std::int32_t (*look)(const VoxelField& field, const GridPlace& place, const VoxelBlocks& blocks,
                        const BlockRange& range, float travelled, BlockFound* found);
-
-  /// How many members of the dense set are among those of each group of sparse words: group g ends before `ends[g]`.
-  void (*count)(const SparseWords& sparse, const std::uint32_t* ends, std::size_t groups, const std::uint64_t* dense,
-                std::uint32_t* counts);
 
   /// nearest[i] = min over k of squared[k] + (i - k)^2 in every one of `columns_per_batch` columns of `length`, row by
   /// row. O(length) where all are near; at worst O(length) for each row between the first and the last with a member.

@@ -144,17 +144,6 @@ struct VoxelsOver {
     return {block, static_cast<std::uint16_t>(inside), static_cast<std::uint16_t>(undecided_ones)};
   }
 
-  static void count(const SparseWords& sparse, const std::uint32_t* ends, std::size_t groups,
-                    const std::uint64_t* dense, std::uint32_t* counts) {
-    std::uint32_t k = 0;
-    for (std::size_t group = 0; group < groups; ++group) {
-      std::uint32_t members = 0;
-      for (; k < ends[group]; ++k)
-        members += static_cast<std::uint32_t>(__builtin_popcountll(sparse.mask[k] & dense[sparse.word[k]]));
-      counts[group] = members;
-    }
-  }
-
   static bool has_member(const float* row) {
     std::uint32_t members = 0;
     for (int column = 0; column < columns_per_batch; column += V::width)
@@ -192,7 +181,7 @@ struct VoxelsOver {
   }
 
   static constexpr VoxelKernel kernel(const char* name, bool (*supported)()) {
-    return {name, supported, &look, &count, &nearest};
+    return {name, supported, &look, &nearest};
   }
 };
 

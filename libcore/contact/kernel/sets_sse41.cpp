@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/kernel/sets.inl.hpp"
+
+namespace tactus::contact::kernel {
+namespace {
+
+bool supported() { return __builtin_cpu_supports("sse4.1") && __builtin_cpu_supports("popcnt"); }
+
+}  // namespace
+
+constinit const SetKernel sets_sse41{"sse41", &supported, &count, &take};
+
+}  // namespace tactus::contact::kernel
