@@ -25,11 +25,9 @@ MotionPtr insertion(const Task& task, const Pose& base_from_target, const JointV
   const auto start = task.posture(backed_off(base_from_seated, axis, to_plane), near);
   if (!start) return nullptr;
   const auto approach =
-      motion::straight_tool_path(task.known_world(), scene.tool_link, *start,
-                                 backed_off(base_from_seated, axis, scene.target.approach_depth), options.step);
+      task.straight_path(*start, backed_off(base_from_seated, axis, scene.target.approach_depth), options.step);
   if (!approach) return nullptr;
-  const auto entry = motion::straight_tool_path(task.known_world(), scene.tool_link, approach->back(), base_from_seated,
-                                                options.insertion_step);
+  const auto entry = task.straight_path(approach->back(), base_from_seated, options.insertion_step);
   if (!entry) return nullptr;
 
   Motion motion;

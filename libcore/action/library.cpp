@@ -64,21 +64,19 @@ JointPath ActionLibrary::as_far_as_plane(const JointPath& way_back, const JointV
 
 /// `path` and the way from its end: out along the tool's axis, and across.
 JointPath ActionLibrary::lead_in(JointPath path, const JointVector& start, const support::Deadline& deadline) const {
-  const contact::KnownWorld& world = task_.known_world();
   const double step = task_.options().motion.step;
-  const int tool_link = task_.scene().tool_link;
   const JointVector q = path.back();
   if (q == start) return path;
-  Pose back = task_.base_from_tool(q);
+  const Pose here = task_.base_from_tool(q);
+  Pose back = here;
   const Pose goal = task_.base_from_tool(start);
   const Vector3 axis = task_.frame().base_from_search.linear().col(2), out = task_.frame().tool_axes(back).col(2);
   const double retreat = past_plane(q, start);
   if (retreat > 1e-6 && out.dot(axis) > least_retreat) {
     back.translation() -= retreat / out.dot(axis) * out;
-    if (const auto leg = motion::straight_tool_path(world, tool_link, q, back, step))
-      path = joined(std::move(path), *leg);
+    if (const auto leg = task_.straight_path(q, task_.at_site(here, back), step)) path = joined(std::move(path), *leg);
   }
-  if (const auto across = motion::straight_tool_path(world, tool_link, path.back(), goal, step))
+  if (const auto across = task_.straight_path(path.back(), goal, step))
     if ((across->back() - start).cwiseAbs().maxCoeff() < 1e-3) {
       JointPath leg = *across;
       leg.back() = start;
@@ -86,7 +84,7 @@ JointPath ActionLibrary::lead_in(JointPath path, const JointVector& start, const
     }
   motion::ConnectOptions options;
   options.step = step;
-  const auto way = motion::connect(world, path.back(), start, options, deadline);
+  const auto way = motion::connect(task_.known_world(), path.back(), start, options, deadline);
   return way ? joined(std::move(path), *way) : JointPath{};
 }
 

@@ -11,8 +11,7 @@ template <typename Extent>
 void add_ray(const Task& task, Kind kind, const JointVector& q, const Pose& base_from_goal, std::vector<double> lengths,
              Extent extent, std::vector<MotionPtr>& motions) {
   const MotionOptions& options = task.options().motion;
-  auto path =
-      motion::straight_tool_path(task.known_world(), task.scene().tool_link, q, base_from_goal, options.step, true);
+  auto path = task.straight_path(q, base_from_goal, options.step, true);
   if (!path || path->size() < 2) return;
   Motion longest;
   longest.kind = kind;
@@ -47,7 +46,7 @@ std::vector<MotionPtr> primitives(const Task& task, const JointVector& q) {
         const auto moved = [&](const JointVector& at) {
           return (task.base_from_tool(at).translation() - base_from_tool.translation()).norm();
         };
-        add_ray(task, Kind::move, q, goal, options.primitive_lengths, moved, motions);
+        add_ray(task, Kind::move, q, task.at_site(base_from_tool, goal), options.primitive_lengths, moved, motions);
       }
   }
   if (!options.primitive_angles.empty()) {

@@ -48,22 +48,38 @@ std::vector<Vector3> sweep_positions(const scene::SearchFrame& frame, const Box&
   return {start, down, end};
 }
 
+/// The tool's poses at some positions: at the nearest sites if the way between them follows the axes then.
+std::vector<Pose> on_sites(const Task& task, const std::vector<Vector3>& positions, double turn) {
+  std::vector<Pose> exact, moved;
+  for (const Vector3& position : positions) exact.push_back(task.frame().base_from_tool(position, turn));
+  if (!task.options().sites) return exact;
+  moved = exact;
+  moved.front().translation() = task.options().sites->nearest(exact.front().translation());
+  for (std::size_t i = 1; i < exact.size(); ++i) {
+    const Vector3 way = exact[i].translation() - exact[i - 1].translation();
+    Pose goal = exact[i];
+    goal.translation() = moved[i - 1].translation() + way;
+    moved[i] = task.at_site(moved[i - 1], goal);
+    if (task.options().sites->stride(moved[i - 1].translation(), moved[i].translation()) == 0.0) return exact;
+  }
+  return moved;
+}
+
 }  // namespace
 
 MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3>& positions, double turn,
                           const JointVector& near) {
   const MotionOptions& options = task.options().motion;
-  const auto start = task.posture(task.frame().base_from_tool(positions.front(), turn), near);
+  const std::vector<Pose> goals = on_sites(task, positions, turn);
+  const auto start = task.posture(goals.front(), near);
   if (!start) return nullptr;
   Motion motion;
   motion.kind = kind;
   motion.anchored = true;
   motion.path = {*start};
   motion.pace = {{0, {options.approach_speed, options.acceleration, options.joint_acceleration}}};
-  for (std::size_t i = 1; i < positions.size(); ++i) {
-    const Pose goal = task.frame().base_from_tool(positions[i], turn);
-    const auto leg =
-        motion::straight_tool_path(task.known_world(), task.scene().tool_link, motion.path.back(), goal, options.step);
+  for (std::size_t i = 1; i < goals.size(); ++i) {
+    const auto leg = task.straight_path(motion.path.back(), goals[i], options.step);
     if (!leg) return nullptr;
     motion.path = joined(std::move(motion.path), *leg);
   }

@@ -54,6 +54,8 @@ Task::Task(scene::Scene scene, TaskOptions options)
   if (!collision.empty())
     throw Error(Status::start_in_collision, "robot.start: found " + collision +
                                                 ", expected a configuration inside the limits and free of collisions");
+  for (const Vector3& v : scene_.target.mesh.vertices) target_reach_ = std::max(target_reach_, v.norm());
+  if (options_.sites) frame_.standoff += past_site({0.0, 0.0, frame_.standoff});
   home_ = find_home();
 }
 
@@ -71,6 +73,27 @@ std::optional<JointVector> Task::posture(const Pose& base_from_tool, const Joint
   return std::nullopt;
 }
 
+std::optional<JointPath> Task::straight_path(const JointVector& from, const Pose& base_from_goal, double step,
+                                             bool keep_free_part) const {
+  const double stride =
+      options_.sites ? options_.sites->stride(base_from_tool(from).translation(), base_from_goal.translation()) : 0.0;
+  return motion::straight_tool_path(*known_world_, scene_.tool_link, from, base_from_goal,
+                                    {step, stride, keep_free_part});
+}
+
+Pose Task::at_site(const Pose& base_from_start, const Pose& base_from_goal) const {
+  Pose goal = base_from_goal;
+  if (options_.sites) goal.translation() = options_.sites->end(base_from_start.translation(), goal.translation());
+  return goal;
+}
+
+/// How much farther the nearest site is along the approach axis than a position in the search frame, if an axis of the
+/// base follows it.
+double Task::past_site(const Vector3& position) const {
+  const Vector3 at = frame_.base_from_search * position, axis = frame_.base_from_search.linear().col(2);
+  return axis.cwiseAbs().maxCoeff() > 1.0 - 1e-9 ? axis.dot(options_.sites->nearest(at) - at) : 0.0;
+}
+
 /// Of the arm's postures over the region's middle, the one from which most of its corners are reached, and of those the
 /// one nearest to the start.
 JointVector Task::find_home() const {
@@ -83,8 +106,7 @@ JointVector Task::find_home() const {
     if (!known_world_->is_free(q)) continue;
     int reached = 0;
     for (const Vector3& position : positions)
-      if (motion::straight_tool_path(*known_world_, scene_.tool_link, q, frame_.base_from_tool(position), 0.05))
-        ++reached;
+      if (straight_path(q, frame_.base_from_tool(position), 0.05)) ++reached;
     if (reached > most) {
       most = reached;
       best = q;

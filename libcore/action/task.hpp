@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "action/tool_sites.hpp"
 #include "contact/known_world.hpp"
 #include "contact/target_contact.hpp"
 #include "motion/connect.hpp"
@@ -9,8 +10,6 @@
 namespace tactus::action {
 
 using contact::BodyPath;
-using geometry::Pose;
-using geometry::Vector3;
 using motion::JointPath;
 using robot::JointVector;
 
@@ -57,6 +56,7 @@ struct TaskOptions {
   double contact_margin = 1e-5;   ///< m
   double stop_tolerance = 0.001;  ///< m of tool motion before the reported stop within which the first contact may lie
   Sensing sensing;
+  std::optional<ToolSites> sites;  ///< where the tool stands on its way; none: wherever the step allows
 };
 
 /// All that is const in a search: the scene, what collides with what, where motions are laid out, and the options.
@@ -74,6 +74,7 @@ class Task {
   const contact::TargetContact& target_contact() const { return *target_contact_; }
   const scene::SearchFrame& frame() const { return frame_; }
   double target_diameter() const { return target_diameter_; }  ///< D_max of the paper, m
+  double target_reach() const { return target_reach_; }        ///< m from the target's origin to its farthest vertex
   const JointVector& home() const {
     return home_;
   }  ///< a free configuration at standoff, in the arm's posture for the search
@@ -85,8 +86,17 @@ class Task {
   /// `near`.
   std::optional<JointVector> posture(const Pose& base_from_tool, const JointVector& near) const;
 
+  /// `motion::straight_tool_path` of the tool through the known world, from site to site where it leads from one to
+  /// another along an axis.
+  std::optional<JointPath> straight_path(const JointVector& from, const Pose& base_from_goal, double step,
+                                         bool keep_free_part = false) const;
+
+  /// `base_from_goal`, moved to the nearest site if the tool at `base_from_start` stands on one and goes along an axis.
+  Pose at_site(const Pose& base_from_start, const Pose& base_from_goal) const;
+
  private:
   JointVector find_home() const;
+  double past_site(const Vector3& position) const;
 
   scene::Scene scene_;
   TaskOptions options_;
@@ -94,7 +104,7 @@ class Task {
   std::shared_ptr<const contact::RobotBodies> bodies_;
   std::unique_ptr<const contact::TargetContact> target_contact_;
   scene::SearchFrame frame_;
-  double target_diameter_;
+  double target_diameter_, target_reach_ = 0.0;
   JointVector home_;
 };
 

@@ -27,7 +27,10 @@ double surprise(const Trace& trace) {
 }  // namespace
 
 Model::Model(std::shared_ptr<const Task> t, const Options& o)
-    : task(std::move(t)), options(o), voxels(std::make_shared<VoxelModel>(*task, o.voxel_size)) {}
+    : task(std::move(t)), options(o), voxels(std::make_shared<VoxelModel>(*task, o.voxel_size)) {
+  if (task->options().sites)
+    options.cells.tables = std::make_shared<CellTables>(*task, CellBelief::shape(task->scene().prior, o.cells));
+}
 
 Belief::Belief(std::shared_ptr<const Model> model, const JointVector& q) : model_(std::move(model)) {
   check_configuration(q, "q");

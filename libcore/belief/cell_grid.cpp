@@ -5,26 +5,52 @@
 #include <cmath>
 #include <numbers>
 
+#include "belief/cell_tables.hpp"
+
 namespace tactus::belief {
 namespace {
 
 constexpr double gimbal_lock = 1e-6;  // of the pitch's cosine: roll and yaw show no more than their sum
 constexpr double widening = 1.02;     // of cells, until there are few enough
 
-std::array<int, 6> counts(const scene::Prior& prior, double position, double angle) {
-  std::array<int, 6> count{};
+using Counts = std::array<int, 6>;
+
+Counts counts(const scene::Prior& prior, double position, double angle) {
+  Counts count{};
   for (int d = 0; d < 6; ++d)
     count[d] = std::max(1, static_cast<int>(std::ceil(prior.width[d] / (d < 3 ? position : angle) - 1e-9)));
   return count;
 }
 
-double product(const std::array<int, 6>& count) {
+double product(const Counts& count) {
   double all = 1.0;
   for (const int n : count) all *= n;
   return all;
 }
 
 }  // namespace
+
+std::size_t CellShape::cells() const { return static_cast<std::size_t>(product(count)); }
+
+std::array<int, 6> CellShape::order() const {
+  int first = 0;
+  const auto in_plane = [this](int d) { return 1.0 * count[d] * count[(d + 1) % 3]; };
+  for (int d = 1; d < 3; ++d)
+    if (in_plane(d) > in_plane(first)) first = d;
+  return {3, 4, 5, (first + 2) % 3, (first + 1) % 3, first};
+}
+
+CellShape cell_shape(const scene::Prior& prior, double position, double angle, std::size_t most) {
+  CellShape shape;
+  shape.count = counts(prior, position, angle);
+  while (product(shape.count) > static_cast<double>(most))
+    shape.count = counts(prior, position *= widening, angle *= widening);
+  for (int d = 0; d < 6; ++d) {
+    shape.corner[d] = prior.centre[d] - 0.5 * prior.width[d];
+    shape.half[d] = 0.5 * prior.width[d] / shape.count[d];
+  }
+  return shape;
+}
 
 /// Halves boxes until they are decided.
 class CellGrid::Sieve {
@@ -36,8 +62,8 @@ class CellGrid::Sieve {
     PoseVector centre, half;
     bool is_cell = true;
     for (int d = 0; d < 6; ++d) {
-      half[d] = grid_.half_[d] * (box.high[d] - box.low[d]);
-      centre[d] = grid_.corner_[d] + grid_.half_[d] * (box.low[d] + box.high[d]);
+      half[d] = grid_.shape_.half[d] * (box.high[d] - box.low[d]);
+      centre[d] = grid_.shape_.corner[d] + grid_.shape_.half[d] * (box.low[d] + box.high[d]);
       is_cell = is_cell && box.high[d] - box.low[d] == 1;
     }
     const double radius = scene::cell_radius(half, grid_.reach_);
@@ -79,18 +105,8 @@ class CellGrid::Sieve {
   const Excludes& excludes_;
 };
 
-CellGrid::CellGrid(const scene::Prior& prior, double position, double angle, std::size_t most, double reach)
-    : reach_(reach) {
-  count_ = counts(prior, position, angle);
-  while (product(count_) > static_cast<double>(most)) count_ = counts(prior, position *= widening, angle *= widening);
-  for (int d = 0; d < 6; ++d) {
-    corner_[d] = prior.centre[d] - 0.5 * prior.width[d];
-    half_[d] = 0.5 * prior.width[d] / count_[d];
-  }
-  while (row_ > 0 && count_[row_] == 1) --row_;
-  left_ = static_cast<std::size_t>(product(count_));
-  members_ = Bitset(left_, true);
-}
+CellGrid::CellGrid(const CellShape& shape, double reach)
+    : shape_(shape), order_(shape.order()), reach_(reach), members_(shape.cells(), true), left_(shape.cells()) {}
 
 void CellGrid::assign(Bitset members) {
   members_ = std::move(members);
@@ -99,9 +115,10 @@ void CellGrid::assign(Bitset members) {
 
 PoseVector CellGrid::centre(std::size_t member) const {
   PoseVector v;
-  for (int d = 5; d >= 0; --d) {
-    const auto n = static_cast<std::size_t>(count_[d]);
-    v[d] = corner_[d] + half_[d] * (2.0 * static_cast<double>(member % n) + 1.0);
+  for (int i = 5; i >= 0; --i) {
+    const int d = order_[i];
+    const auto n = static_cast<std::size_t>(shape_.count[d]);
+    v[d] = shape_.corner[d] + shape_.half[d] * (2.0 * static_cast<double>(member % n) + 1.0);
     member /= n;
   }
   return v;
@@ -110,14 +127,17 @@ PoseVector CellGrid::centre(std::size_t member) const {
 /// Calls `row(begin, end)` for each row of a box, until it returns false.
 template <typename Row>
 void CellGrid::for_each_row(const Box& box, Row&& row) const {
+  int along = 5;
+  while (along > 0 && shape_.count[order_[along]] == 1) --along;
   std::array<int, 6> at = box.low;
   for (;;) {
     std::size_t begin = 0;
-    for (int d = 0; d < 6; ++d) begin = begin * static_cast<std::size_t>(count_[d]) + static_cast<std::size_t>(at[d]);
-    if (!row(begin, begin + static_cast<std::size_t>(box.high[row_] - box.low[row_]))) return;
-    int d = row_ - 1;
-    while (d >= 0 && ++at[d] == box.high[d]) at[d] = box.low[d], --d;
-    if (d < 0) return;
+    for (const int d : order_)
+      begin = begin * static_cast<std::size_t>(shape_.count[d]) + static_cast<std::size_t>(at[d]);
+    if (!row(begin, begin + static_cast<std::size_t>(box.high[order_[along]] - box.low[order_[along]]))) return;
+    int i = along - 1;
+    while (i >= 0 && ++at[order_[i]] == box.high[order_[i]]) at[order_[i]] = box.low[order_[i]], --i;
+    if (i < 0) return;
   }
 }
 
@@ -134,14 +154,14 @@ bool CellGrid::any_in(const Box& box) const {
 bool CellGrid::any_near(const PoseVector& v, double tolerance) const {
   Box box;
   for (int d = 0; d < 6; ++d) {
-    const double off = v[d] - corner_[d], width = 2.0 * half_[d];
+    const double off = v[d] - shape_.corner[d], width = 2.0 * shape_.half[d];
     if (width <= 0.0) {
       if (std::abs(off) > tolerance) return false;
       box.high[d] = 1;
       continue;
     }
-    box.low[d] = static_cast<int>(std::clamp(std::floor((off - tolerance) / width), 0.0, 1.0 * count_[d]));
-    box.high[d] = static_cast<int>(std::clamp(std::floor((off + tolerance) / width) + 1.0, 0.0, 1.0 * count_[d]));
+    box.low[d] = static_cast<int>(std::clamp(std::floor((off - tolerance) / width), 0.0, 1.0 * shape_.count[d]));
+    box.high[d] = static_cast<int>(std::clamp(std::floor((off + tolerance) / width) + 1.0, 0.0, 1.0 * shape_.count[d]));
     if (box.low[d] >= box.high[d]) return false;
   }
   return any_in(box);
@@ -151,12 +171,13 @@ bool CellGrid::holds(const Pose& base_from_target, double tolerance) const {
   constexpr double turn = 2.0 * std::numbers::pi;
   PoseVector usual = geometry::pose_vector(base_from_target);
   if (std::abs(std::cos(usual[4])) < gimbal_lock)
-    return !members_.all_of(
-        [&](std::size_t member) { return !scene::box_holds(centre(member), half_, base_from_target, tolerance); });
+    return !members_.all_of([&](std::size_t member) {
+      return !scene::box_holds(centre(member), shape_.half, base_from_target, tolerance);
+    });
   PoseVector over = usual;
   over[3] += std::numbers::pi, over[4] = std::numbers::pi - usual[4], over[5] += std::numbers::pi;
   for (PoseVector v : {usual, over}) {
-    for (int d = 3; d < 6; ++d) v[d] = scene::nearest_angle(v[d], corner_[d] + half_[d] * count_[d]);
+    for (int d = 3; d < 6; ++d) v[d] = scene::nearest_angle(v[d], shape_.corner[d] + shape_.half[d] * shape_.count[d]);
     for (int turns = 0; turns < 27; ++turns) {
       PoseVector turned = v;
       turned[3] += turn * (turns % 3 - 1), turned[4] += turn * (turns / 3 % 3 - 1), turned[5] += turn * (turns / 9 - 1);
@@ -173,11 +194,21 @@ void CellGrid::drop(const Box& box) {
   });
 }
 
-void CellGrid::sift(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes) {
+void CellGrid::sift(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes,
+                    const CellTables* tables) {
+  std::vector<Trace> rests;
+  rests.reserve(traces.size());
   std::vector<Claim> claims;
-  for (const Trace* trace : traces) claims.push_back({trace, 0});
+  for (const Trace* trace : traces) {
+    if (tables != nullptr) {
+      tables->sift(*trace, members_);
+      rests.push_back(tables->rest(*trace));
+      trace = &rests.back();
+    }
+    if (!trace->path.empty()) claims.push_back({trace, 0});
+  }
   std::stable_partition(claims.begin(), claims.end(), [](const Claim& claim) { return claim.trace->contact; });
-  Sieve(*this, task, excludes).sift({{}, count_}, claims, true);
+  if (!claims.empty() || excludes) Sieve(*this, task, excludes).sift({{}, shape_.count}, claims, true);
   left_ = members_.count();
 }
 

@@ -11,17 +11,36 @@ namespace tactus::belief {
 using geometry::PoseVector;
 using support::Bitset;
 
-/// A prior cut evenly into cells of poses, each of which may hold the truth or not: a bit a cell, so that tens of
-/// millions take a few MiB. A value.
+class CellTables;
+
+/// How a prior is cut evenly into cells of poses: x, y, z, roll, pitch, yaw.
+struct CellShape {
+  PoseVector corner{};  ///< the prior's lowest
+  PoseVector half{};    ///< of every cell's widths
+  std::array<int, 6> count{};
+  bool operator==(const CellShape&) const = default;
+
+  std::size_t cells() const;
+
+  /// The dimensions in the order in which cells are counted, that of neighbours last: the turns first, then the
+  /// positions, with the two of most cells at the end.
+  std::array<int, 6> order() const;
+};
+
+/// Cells that are at most `position` m and `angle` rad wide, and cover the prior exactly. Where that would make more
+/// than `most` of them, both are widened alike.
+CellShape cell_shape(const scene::Prior& prior, double position, double angle, std::size_t most);
+
+/// Cells of poses, each of which may hold the truth or not: a bit a cell, so that tens of millions take a few MiB. A
+/// value.
 class CellGrid {
  public:
-  /// Cells that are at most `position` m and `angle` rad wide, and cover the prior exactly. Where that would make more
-  /// than `most` of them, both are widened alike. `reach`: m from the target's origin to its farthest vertex.
-  CellGrid(const scene::Prior& prior, double position, double angle, std::size_t most, double reach);
+  /// `reach`: m from the target's origin to its farthest vertex.
+  CellGrid(const CellShape& shape, double reach);
 
   std::size_t size() const { return left_; }  ///< cells that may hold the truth
-  const std::array<int, 6>& count() const { return count_; }
-  const PoseVector& half_width() const { return half_; }  ///< of every cell
+  const CellShape& shape() const { return shape_; }
+  const PoseVector& half_width() const { return shape_.half; }  ///< of every cell
   const Bitset& members() const { return members_; }
   void assign(Bitset members);  ///< of `members().size()`
 
@@ -36,8 +55,9 @@ class CellGrid {
 
   /// Drops the cells in which no pose can have given every trace, or that `excludes` says so of. Asks boxes of cells
   /// before cells: what a motion comes nowhere near, and what it sweeps through, is decided as a whole. O(cells at the
-  /// edge of that).
-  void sift(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes = {});
+  /// edge of that). What `tables` of cells of this shape tell is not asked.
+  void sift(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes = {},
+            const CellTables* tables = nullptr);
 
  private:
   struct Box {
@@ -54,12 +74,10 @@ class CellGrid {
   bool any_near(const PoseVector& v, double tolerance) const;
   void drop(const Box& box);
 
-  PoseVector corner_{};  ///< the prior's lowest
-  PoseVector half_{};
-  std::array<int, 6> count_{};
-  int row_ = 5;  ///< the last dimension with more than one cell: neighbours along it are neighbours in `members_`
+  CellShape shape_;
+  std::array<int, 6> order_;
   double reach_;
-  Bitset members_;  ///< yaw fastest, then pitch, roll, z, y, x
+  Bitset members_;  ///< counted by `order_`
   std::size_t left_ = 0;
 };
 

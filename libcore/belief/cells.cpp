@@ -38,9 +38,13 @@ std::vector<std::size_t> latest_first(const std::vector<Trace>& history) {
 
 }  // namespace
 
-CellBelief::CellBelief(const Task& task, const CellOptions& options) : options_(options), prior_(task.scene().prior) {
-  for (const Vector3& v : task.scene().target.mesh.vertices) reach_ = std::max(reach_, v.norm());
-  grid_.emplace(prior_, options.position, options.angle, options.most_at_first, reach_);
+CellShape CellBelief::shape(const scene::Prior& prior, const CellOptions& options) {
+  return cell_shape(prior, options.position, options.angle, options.most_at_first);
+}
+
+CellBelief::CellBelief(const Task& task, const CellOptions& options)
+    : options_(options), prior_(task.scene().prior), reach_(task.target_reach()) {
+  grid_.emplace(shape(prior_, options), reach_);
   initial_half_ = grid_->half_width();
   list_when_few();
   weigh();
@@ -123,7 +127,8 @@ void CellBelief::weigh() {
 bool CellBelief::update(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes) {
   if (grid_) {
     CellGrid sifted = *grid_;
-    sifted.sift(task, traces, excludes);
+    const CellTables* tables = options_.tables.get();
+    sifted.sift(task, traces, excludes, tables != nullptr && tables->shape() == sifted.shape() ? tables : nullptr);
     if (sifted.size() == 0) return false;
     grid_ = std::move(sifted);
     list_when_few();

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "belief/cell_grid.hpp"
+#include "belief/cell_tables.hpp"
 #include "belief/projection.hpp"
 
 namespace tactus::belief {
@@ -26,7 +26,8 @@ struct CellOptions {
   std::size_t most = 20000;              ///< cells are split while there are fewer; ten times that for `look_inside`
   std::size_t most_at_first = 1u << 21;  ///< initial cells are widened until there are no more than these
   double finest_radius = 0.00025;        ///< m: no cell with a smaller radius is split
-  int threads = 1;                       ///< that test cells; 0: as many as the machine has. The answers are the same
+  std::shared_ptr<const CellTables> tables{};  ///< used while the cells are those of their grid; null: none
+  int threads = 1;  ///< that test cells; 0: as many as the machine has. The answers are the same
 };
 
 /// Phase 2: a set of cells that covers every pose that may have given the observations. A cell goes only when no pose
@@ -38,6 +39,9 @@ class CellBelief {
 
   /// All cells of the prior.
   CellBelief(const Task& task, const CellOptions& options);
+
+  /// Of all cells of the prior.
+  static CellShape shape(const scene::Prior& prior, const CellOptions& options);
 
   std::size_t size() const { return grid_ ? grid_->size() : cells_.size(); }
   std::vector<Cell> cells() const;  ///< O(cells), as the two below

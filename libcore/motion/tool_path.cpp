@@ -20,23 +20,25 @@ const robot::InverseOptions follow{.position_tolerance = 2e-7, .angle_tolerance 
 // Follows the straight line of the tool by inverse kinematics, waypoint by waypoint, with increments that fit the step.
 class LineFollower {
  public:
-  LineFollower(const KnownWorld& world, int tool_link, const JointVector& from, const Pose& goal, double step)
+  LineFollower(const KnownWorld& world, int tool_link, const JointVector& from, const Pose& goal,
+               const StraightOptions& options)
       : world_(world),
         tool_link_(tool_link),
         start_(robot::forward(world.model(), from, tool_link)),
         goal_(goal),
-        step_(step),
+        step_(options.step),
         path_{from} {
-    const double way =
-        (goal.translation() - start_.translation()).norm() + radius_of_turning * geometry::angle_between(start_, goal);
-    increment_ = std::min(1.0, step / std::max(way, 1e-12));
+    const double metres = (goal.translation() - start_.translation()).norm();
+    const double way = metres + radius_of_turning * geometry::angle_between(start_, goal);
+    increment_ = std::min(1.0, step_ / std::max(way, 1e-12));
+    if (options.stride > 0.0) strides_ = std::round(metres / options.stride);
     least_ = finest * increment_;
   }
 
   // Adds the next free waypoint; false if there is none.
   bool advance() {
     while (increment_ >= least_) {
-      const double fraction = reached_ + increment_ >= 1.0 - 1e-9 ? 1.0 : reached_ + increment_;
+      const double fraction = next_fraction();
       const std::optional<JointVector> next =
           robot::inverse(world_.model(), tool_link_, pose_at(fraction), extrapolated(fraction), follow);
       const double bound = next ? world_.displacement(path_.back(), *next) : 0.0;
@@ -55,6 +57,15 @@ class LineFollower {
   JointPath take() { return std::move(path_); }
 
  private:
+  // A whole number of strides if there is one ahead.
+  double next_fraction() const {
+    const double fraction = reached_ + increment_;
+    if (fraction >= 1.0 - 1e-9) return 1.0;
+    if (strides_ == 0.0) return fraction;
+    const double whole = std::floor(fraction * strides_ + 1e-6) / strides_;
+    return whole > reached_ + 1e-9 ? whole : fraction;
+  }
+
   Pose pose_at(double fraction) const {
     return fraction == 1.0 ? goal_ : geometry::interpolate(start_, goal_, fraction);
   }
@@ -82,6 +93,7 @@ class LineFollower {
   int tool_link_;
   Pose start_, goal_;
   double step_;
+  double strides_ = 0.0;  // along the line; 0: any
   JointPath path_;
   double reached_ = 0.0;  // of the line, 0 .. 1
   double increment_ = 1.0, last_increment_ = 1.0, least_ = 0.0;
@@ -90,13 +102,13 @@ class LineFollower {
 }  // namespace
 
 std::optional<JointPath> straight_tool_path(const KnownWorld& world, int tool_link, const JointVector& from,
-                                            const Pose& base_from_tool_goal, double step, bool keep_free_part) {
+                                            const Pose& base_from_tool_goal, const StraightOptions& options) {
   if (!world.is_free(from)) return std::nullopt;
-  LineFollower follower(world, tool_link, from, base_from_tool_goal, step);
+  LineFollower follower(world, tool_link, from, base_from_tool_goal, options);
   while (!follower.done() && follower.advance()) {
   }
   JointPath path = follower.take();
-  if (path.size() < 2 || !(follower.done() || keep_free_part)) return std::nullopt;
+  if (path.size() < 2 || !(follower.done() || options.keep_free_part)) return std::nullopt;
   return path;
 }
 

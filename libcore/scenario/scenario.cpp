@@ -16,6 +16,8 @@ using support::Error;
 using support::Problem;
 using support::Status;
 
+constexpr double site_step = 0.001;  // m at most between sites of the tool
+
 /// Runs `make`; what it throws joins the problems, so that all of them come out at once.
 template <typename Make>
 auto collected(std::vector<std::string>& problems, Make make) -> decltype(make()) {
@@ -159,8 +161,11 @@ std::shared_ptr<const Scenario> prepare(Description description) {
   if (const std::string conflict = prior_conflict(scene); !conflict.empty())
     throw Error(Status::bad_scenario, conflict);
   auto scenario = std::make_shared<Scenario>();
-  scenario->task = std::make_shared<action::Task>(std::move(scene), task_options(description));
-  scenario->model = std::make_shared<belief::Model>(scenario->task, belief_options(description.belief));
+  const belief::Options belief = belief_options(description.belief);
+  action::TaskOptions task = task_options(description);
+  task.sites = belief::CellTables::sites(belief::CellBelief::shape(scene.prior, belief.cells), site_step);
+  scenario->task = std::make_shared<action::Task>(std::move(scene), task);
+  scenario->model = std::make_shared<belief::Model>(scenario->task, belief);
   scenario->planner = planner_options(description.planner);
   scenario->description = std::move(description);
   return scenario;

@@ -46,12 +46,6 @@ PoseVector pose_in(const CellBelief& cells, const Cell& cell, Rng& rng) {
   return v;
 }
 
-double target_reach() {
-  double reach = 0.0;
-  for (const Vector3& v : task().scene().target.mesh.vertices) reach = std::max(reach, v.norm());
-  return reach;
-}
-
 /// A few observed actions; calls `after` with the belief behind each.
 template <typename After>
 void observe(std::uint64_t seed, int actions, After after) {
@@ -181,10 +175,10 @@ TEST(Cells, OfAGridAreSiftedAsOneByOne) {
   for (const std::uint64_t seed : {31u, 32u, 33u, 34u})
     observe(seed, 4, [&](const Belief& belief, const PoseVector&) {
       const belief::Trace& trace = belief.history().back();
-      const belief::CellGrid all(task().scene().prior, 0.005, 0.1, 1u << 20, target_reach());
+      const belief::CellGrid all(belief::cell_shape(task().scene().prior, 0.005, 0.1, 1u << 20), task().target_reach());
       belief::CellGrid sifted = all;
       sifted.sift(task(), {&trace});
-      const double radius = scene::cell_radius(all.half_width(), target_reach());
+      const double radius = scene::cell_radius(all.half_width(), task().target_reach());
       all.members().for_each([&](std::size_t cell) {
         const bool may = belief::may_reproduce(task(), trace, geometry::pose_from(all.centre(cell)), radius);
         ++(may ? kept : dropped);
@@ -211,7 +205,7 @@ TEST(Cells, OfAGridHoldAPoseAsOneByOne) {
   scene::Prior prior;
   prior.centre = {0.1, 0.2, 0.3, 0.4, 1.2, 3.0};
   prior.width = {0.1, 0.0, 0.2, 2.0 * std::numbers::pi, 1.0, 1.5};
-  belief::CellGrid grid(prior, 0.03, 0.3, 1u << 20, 0.1);
+  belief::CellGrid grid(belief::cell_shape(prior, 0.03, 0.3, 1u << 20), 0.1);
   support::Bitset some(grid.members().size());
   for (std::size_t i = 0; i < some.size(); ++i)
     if (rng.below(2) == 0) some.set(i);
@@ -234,7 +228,7 @@ TEST(Cells, OfAGridHoldAPoseAsOneByOne) {
 
 TEST(Cells, OfAGridAreWidenedUntilTheyAreFewEnough) {
   const scene::Prior& prior = task().scene().prior;
-  const belief::CellGrid grid(prior, 0.0001, 0.001, 5000, target_reach());
+  const belief::CellGrid grid(belief::cell_shape(prior, 0.0001, 0.001, 5000), task().target_reach());
   EXPECT_LE(grid.size(), 5000u);
   EXPECT_GT(grid.size(), 2500u);
   EXPECT_NEAR(grid.half_width()[3] / grid.half_width()[1], 10.0, 2.0);

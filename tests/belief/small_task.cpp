@@ -118,7 +118,9 @@ std::shared_ptr<const action::Task> small_task(const SmallTask& small) {
   options.actions.primitive_angles = {0.2};
   options.actions.probe_depth = {0.015};
   options.sensing = small.sensing;
-  return std::make_shared<const action::Task>(small_scene(small), options);
+  const scene::Scene scene = small_scene(small);
+  options.sites = belief::CellTables::sites(belief::CellBelief::shape(scene.prior, {}), 0.001);
+  return std::make_shared<const action::Task>(scene, options);
 }
 
 std::shared_ptr<const belief::Model> small_model(belief::Kind kind, const SmallTask& small) {

@@ -71,44 +71,75 @@ std::vector<Row> split(const Options& options) {
   return {row, successor};
 }
 
-/// One observation of a sweep, taken in by every cell of the shelf's prior at 2 mm and 3 degrees: one by one (a random
-/// share of them) and in boxes.
-Row observed(const action::Task& task, const belief::Trace& trace, const char* work, const Options& options) {
-  double reach = 0.0;
-  for (const geometry::Vector3& v : task.scene().target.mesh.vertices) reach = std::max(reach, v.norm());
-  const belief::CellGrid all(task.scene().prior, 0.002, std::numbers::pi / 60.0, std::size_t{1} << 25, reach);
-  const double radius = scene::cell_radius(all.half_width(), reach);
+/// The shelf, and its prior in cells of 2 mm and 3 degrees.
+struct FineShelf {
+  std::shared_ptr<const scenario::Scenario> shelf =
+      scenario::load(TACTUS_SOURCE_DIR "/examples/scenarios/shelf_3d.yaml");
+  belief::CellShape shape =
+      belief::cell_shape(shelf->task->scene().prior, 0.002, std::numbers::pi / 60.0, std::size_t{1} << 25);
+  action::Task task{shelf->task->scene(), with_sites(shelf->task->options(), shape)};
+
+  static action::TaskOptions with_sites(action::TaskOptions options, const belief::CellShape& shape) {
+    options.sites = belief::CellTables::sites(shape, 0.001);
+    return options;
+  }
+};
+
+/// One observation of a sweep, taken in by every cell: one by one (a random share of them), in boxes, and by tables.
+std::vector<Row> observed(const FineShelf& fine, const belief::Trace& trace, const std::string& work,
+                          const Options& options) {
+  const action::Task& task = fine.task;
+  const belief::CellGrid all(fine.shape, task.target_reach());
+  const double radius = scene::cell_radius(all.half_width(), task.target_reach());
   Row row;
-  row.work = work;
   row.pairs = all.size();
   row.n = trace.path.size() - 1;
-  belief::CellGrid left = all;
-  row.ours_s = thread_seconds("ours", seconds, [&] {
-    left = all;
-    left.sift(task, {&trace});
-  });
   support::Rng rng(options.seed);
   std::vector<std::size_t> share;
   for (int i = 0; i < 20'000; ++i) share.push_back(rng.below(all.size()));
-  std::size_t agreeing = 0;
-  const double asked = thread_seconds("baseline", seconds, [&] {
-    agreeing = 0;
-    for (const std::size_t cell : share)
-      agreeing += belief::may_reproduce(task, trace, geometry::pose_from(all.centre(cell)), radius) ==
-                  left.members().test(cell);
-  });
-  row.baseline_s = asked * static_cast<double>(all.size()) / static_cast<double>(share.size());
   row.compared = share.size();
-  row.agreeing = agreeing;
-  row.memory_mib = resident_mib();
-  row.note = std::to_string(left.size()) + " cells are left; baseline: each cell on its own, " +
-             std::to_string(share.size()) + " of them, " + std::to_string(agreeing) + " as in boxes";
-  return row;
+  std::vector<char> may(share.size());
+  row.baseline_s =
+      thread_seconds("baseline", seconds,
+                     [&] {
+                       for (std::size_t i = 0; i < share.size(); ++i)
+                         may[i] = belief::may_reproduce(task, trace, geometry::pose_from(all.centre(share[i])), radius);
+                     }) *
+      static_cast<double>(all.size()) / static_cast<double>(share.size());
+
+  std::vector<Row> rows;
+  belief::CellGrid left = all;
+  const auto add = [&](const std::string& way, double time, const std::string& note) {
+    row.work = work + way;
+    row.ours_s = time;
+    std::size_t agreeing = 0;
+    for (std::size_t i = 0; i < share.size(); ++i) agreeing += left.members().test(share[i]) == (may[i] != 0);
+    row.agreeing = agreeing;
+    row.memory_mib = resident_mib();
+    row.note = note + "; " + std::to_string(left.size()) + " cells are left; baseline: each cell on its own, " +
+               std::to_string(share.size()) + " of them, " + std::to_string(agreeing) + " of these as here";
+    rows.push_back(row);
+  };
+  const auto sift = [&](const belief::CellTables* tables) {
+    left = all;
+    left.sift(task, {&trace}, {}, tables);
+  };
+  add("", thread_seconds("boxes", seconds, [&] { sift(nullptr); }), "boxes of cells");
+  const double cold = thread_seconds("cold", seconds, [&] {
+    const belief::CellTables fresh(task, fine.shape);
+    sift(&fresh);
+  });
+  add("-cold", cold, "tables made on the way");
+  const belief::CellTables tables(task, fine.shape);
+  sift(&tables);
+  const double warm = thread_seconds("warm", seconds, [&] { sift(&tables); });
+  add("-warm", warm, "tables there, " + std::to_string(tables.bytes() >> 20) + " MiB");
+  return rows;
 }
 
 std::vector<Row> cells(const Options& options) {
-  const auto shelf = scenario::load(TACTUS_SOURCE_DIR "/examples/scenarios/shelf_3d.yaml");
-  const action::Task& task = *shelf->task;
+  const FineShelf fine;
+  const action::Task& task = fine.task;
   const action::MotionPtr motion = action::probes(task, task.frame().region, task.home(), 9)[5];
   belief::Trace free, touched;
   free.path = motion->path;
@@ -118,7 +149,9 @@ std::vector<Row> cells(const Options& options) {
   touched.path.assign(free.path.begin(), free.path.begin() + static_cast<std::ptrdiff_t>(free.path.size() / 2));
   touched.touch = touched.path.size() - 1;
   touched.bodies = contact::BodyPath(task.bodies(), touched.path);
-  return {observed(task, free, "step-free", options), observed(task, touched, "step-contact", options)};
+  std::vector<Row> rows = observed(fine, free, "step-free", options);
+  for (Row& row : observed(fine, touched, "step-contact", options)) rows.push_back(std::move(row));
+  return rows;
 }
 
 }  // namespace

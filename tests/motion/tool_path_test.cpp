@@ -53,13 +53,14 @@ TEST(StraightToolPath, ObeysTheLawsOfPathsInAllDirections) {
     for (const Vector3& way : {Vector3(0.1, 0, 0), Vector3(0, 0.1, 0), Vector3(0, 0, -0.1), Vector3(-0.05, 0.05, 0.02)})
       for (const double turn : {0.0, 0.3}) {
         const Pose goal = shifted(start, way, turn);
-        const auto path = motion::straight_tool_path(world, plate, bent, goal, step);
+        const auto path = motion::straight_tool_path(world, plate, bent, goal, {.step = step});
         ASSERT_TRUE(path) << way.transpose() << " turned by " << turn;
         EXPECT_EQ(path->front(), bent);
         test::expect_free_in_steps(world, *path, step);
         expect_on_the_line(world.model(), plate, *path, start, goal);
         expect_reaches(world.model(), plate, path->back(), goal);
-        EXPECT_EQ(*path, *motion::straight_tool_path(world, plate, bent, goal, step)) << "the same answer twice";
+        EXPECT_EQ(*path, *motion::straight_tool_path(world, plate, bent, goal, {.step = step}))
+            << "the same answer twice";
       }
 }
 
@@ -67,7 +68,7 @@ TEST(StraightToolPath, TurnsOnTheSpot) {
   const KnownWorld world(test::small_arm(), {}, {});
   const int plate = world.model().find_link("plate");
   const Pose goal = shifted(robot::forward(world.model(), bent, plate), Vector3::Zero(), 0.4);
-  const auto path = motion::straight_tool_path(world, plate, bent, goal, 0.004);
+  const auto path = motion::straight_tool_path(world, plate, bent, goal, {.step = 0.004});
   ASSERT_TRUE(path);
   test::expect_free_in_steps(world, *path, 0.004);
   expect_reaches(world.model(), plate, path->back(), goal);
@@ -84,8 +85,8 @@ TEST(StraightToolPath, KeepsTheFreePartBeforeAnObstacleIfAsked) {
       arm,
       {geometry::transformed(geometry::box_mesh({0.3, 0.3, 0.02}), Pose(Eigen::Translation3d(under.translation())))},
       {"table"});
-  EXPECT_FALSE(motion::straight_tool_path(world, plate, bent, goal, 0.004));
-  const auto part = motion::straight_tool_path(world, plate, bent, goal, 0.004, true);
+  EXPECT_FALSE(motion::straight_tool_path(world, plate, bent, goal, {.step = 0.004}));
+  const auto part = motion::straight_tool_path(world, plate, bent, goal, {.step = 0.004, .keep_free_part = true});
   ASSERT_TRUE(part);
   test::expect_free_in_steps(world, *part, 0.004);
   const double way = motion::tool_travel(*arm, plate, *part).metres;
@@ -97,8 +98,8 @@ TEST(StraightToolPath, StopsAtTheEndOfTheReach) {
   const KnownWorld world(test::small_arm(), {}, {});
   const int plate = world.model().find_link("plate");
   const Pose goal = shifted(robot::forward(world.model(), bent, plate), {3.0, 0.0, 0.0});
-  EXPECT_FALSE(motion::straight_tool_path(world, plate, bent, goal, 0.01));
-  const auto part = motion::straight_tool_path(world, plate, bent, goal, 0.01, true);
+  EXPECT_FALSE(motion::straight_tool_path(world, plate, bent, goal, {.step = 0.01}));
+  const auto part = motion::straight_tool_path(world, plate, bent, goal, {.step = 0.01, .keep_free_part = true});
   ASSERT_TRUE(part);
   test::expect_free_in_steps(world, *part, 0.01);
 }
@@ -108,7 +109,8 @@ TEST(StraightToolPath, HasNoAnswerFromACollision) {
   const int plate = arm->find_link("plate");
   const Pose start = robot::forward(*arm, bent, plate);
   const KnownWorld world(arm, {geometry::transformed(geometry::box_mesh({0.01, 0.01, 0.01}), start)}, {"pebble"});
-  EXPECT_FALSE(motion::straight_tool_path(world, plate, bent, shifted(start, {0.0, 0.0, 0.05}), 0.004, true));
+  EXPECT_FALSE(motion::straight_tool_path(world, plate, bent, shifted(start, {0.0, 0.0, 0.05}),
+                                          {.step = 0.004, .keep_free_part = true}));
 }
 
 TEST(StraightToolPathUr10e, ObeysTheLawsOfPaths) {
@@ -120,7 +122,7 @@ TEST(StraightToolPathUr10e, ObeysTheLawsOfPaths) {
   const Pose start = robot::forward(*ur10e, q, tool);
   for (const Vector3& way : {Vector3(0.2, 0, 0), Vector3(0, 0.2, 0), Vector3(0, 0, -0.2)}) {
     const Pose goal = shifted(start, way, 0.1);
-    const auto path = motion::straight_tool_path(world, tool, q, goal, 0.004);
+    const auto path = motion::straight_tool_path(world, tool, q, goal, {.step = 0.004});
     ASSERT_TRUE(path) << way.transpose();
     test::expect_free_in_steps(world, *path, 0.004);
     expect_on_the_line(*ur10e, tool, *path, start, goal);
