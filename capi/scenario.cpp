@@ -20,6 +20,10 @@ const robot::Joint& joint_of(const tactus_scenario* scenario, std::size_t joint)
   return joints[index_below(joints.size(), joint, "joint")];
 }
 
+const belief::CellTables& tables_of(const tactus_scenario* scenario) {
+  return *required(scenario, "scenario").contents->model->options.cells.tables;
+}
+
 std::string joined_lines(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
@@ -125,6 +129,18 @@ tactus_status tactus_pose_from_rpy(const double xyzrpy[6], double pose[7]) noexc
       if (!std::isfinite(v[i])) reject("xyzrpy[" + std::to_string(i) + "]", "a value that is not finite", "a number");
     write_pose(geometry::pose_from(v), &required(pose, "pose"));
   });
+}
+
+// --- keeping what was worked out
+
+tactus_status tactus_scenario_save_tables(const tactus_scenario* scenario, uint8_t* bytes, size_t capacity,
+                                          size_t* count) noexcept {
+  return guarded(__func__, [&] { give(tables_of(scenario).save(), bytes, capacity, count, "bytes"); });
+}
+
+tactus_status tactus_scenario_restore_tables(const tactus_scenario* scenario, const uint8_t* bytes,
+                                             size_t size) noexcept {
+  return guarded(__func__, [&] { tables_of(scenario).restore(&required(bytes, "bytes"), size); });
 }
 
 // --- what to draw

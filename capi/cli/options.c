@@ -33,6 +33,8 @@ const char* const usage =
     "  --jobs J                   trials at a time (1); they share the machine, and a budget in seconds buys less:\n"
     "                             with --budget-expansions the results are the same for every J, limits of time apart\n"
     "  --json FILE                results, saved whole after every trial; - for stdout, at the end\n"
+    "  --tables FILE              tables of contact: taken in if FILE is there, and saved at the end for the next "
+    "start\n"
     "  --resume                   run only the trials that FILE does not have; its others must be of the same options\n"
     "\n"
     "of run alone:\n"
@@ -123,6 +125,9 @@ static const char* take(const char* name, const char* value, trial_options* opti
     if (strcmp(value, "hierarchical") != 0 && strcmp(value, "particles") != 0) return "hierarchical or particles";
   } else if (strcmp(name, "--json") == 0) {
     options->json = value;
+  } else if (strcmp(name, "--tables") == 0) {
+    options->tables = value;
+    if (!is_replaceable(value)) return "a file that can be replaced";
   } else if (strcmp(name, "--record") == 0) {
     options->record = value;
   } else if (strcmp(name, "--trials") == 0) {
@@ -148,14 +153,23 @@ static const char* take(const char* name, const char* value, trial_options* opti
 static bool has_option(const char* command, const char* name) {
   static const struct {
     const char *name, *only; /* the one command that has it; NULL: both have */
-  } all[] = {{"--trials", NULL},         {"--seed", NULL},
-             {"--jobs", NULL},           {"--belief", NULL},
-             {"--budget-seconds", NULL}, {"--budget-expansions", NULL},
-             {"--json", NULL},           {"--stopping-distance", NULL},
-             {"--encoder-error", NULL},  {"--missed-contacts", NULL},
-             {"--false-contacts", NULL}, {"--solver", "run"},
-             {"--true-pose", "run"},     {"--record", "run"},
-             {"--solvers", "compare"},   {"--phase", "compare"}};
+  } all[] = {{"--trials", NULL},
+             {"--seed", NULL},
+             {"--jobs", NULL},
+             {"--belief", NULL},
+             {"--budget-seconds", NULL},
+             {"--budget-expansions", NULL},
+             {"--json", NULL},
+             {"--tables", NULL},
+             {"--stopping-distance", NULL},
+             {"--encoder-error", NULL},
+             {"--missed-contacts", NULL},
+             {"--false-contacts", NULL},
+             {"--solver", "run"},
+             {"--true-pose", "run"},
+             {"--record", "run"},
+             {"--solvers", "compare"},
+             {"--phase", "compare"}};
   for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
     if (strcmp(name, all[i].name) == 0) return all[i].only == NULL || strcmp(command, all[i].only) == 0;
   return false;

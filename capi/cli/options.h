@@ -19,6 +19,7 @@ typedef struct {
   const char* belief;
   const char* json;
   const char* record;
+  const char* tables;
   bool resume;
   int trials;
   int jobs;

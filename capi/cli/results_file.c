@@ -70,18 +70,24 @@ bool write_at_end(const results_file* file) {
 
 /* --- reading */
 
-/* All of a file and a 0 after it; NULL if it can't be read. */
-static char* read_all(FILE* in) {
+static bool read_all(FILE* in, uint8_t** bytes, size_t* size) {
   struct stat facts;
-  if (fstat(fileno(in), &facts) != 0) return NULL;
-  const size_t size = (size_t)facts.st_size;
-  char* text = malloc(size + 1);
-  if (text == NULL || fread(text, 1, size, in) != size) {
-    free(text);
-    return NULL;
-  }
-  text[size] = '\0';
-  return text;
+  if (fstat(fileno(in), &facts) != 0) return false;
+  *size = (size_t)facts.st_size;
+  *bytes = malloc(*size + 1);
+  if (*bytes == NULL || fread(*bytes, 1, *size, in) != *size) return false;
+  (*bytes)[*size] = '\0';
+  return true;
+}
+
+bool read_file(const char* path, uint8_t** bytes, size_t* size) {
+  *bytes = NULL;
+  FILE* in = fopen(path, "r");
+  if (in == NULL) return errno == ENOENT || failed(path, "could not be opened");
+  const bool whole = read_all(in, bytes, size) || failed(path, "could not be read");
+  fclose(in);
+  if (!whole) free(*bytes), *bytes = NULL;
+  return whole;
 }
 
 static bool read_results(const results_file* file, const char* text) {
@@ -92,12 +98,11 @@ static bool read_results(const results_file* file, const char* text) {
 }
 
 bool load_results(const results_file* file) {
-  FILE* in = fopen(file->path, "r");
-  if (in == NULL) return errno == ENOENT || failed(file->path, "could not be opened");
-  char* text = read_all(in);
-  const bool loaded = text != NULL ? read_results(file, text) : failed(file->path, "could not be read");
+  uint8_t* text = NULL;
+  size_t size = 0;
+  if (!read_file(file->path, &text, &size)) return false;
+  const bool loaded = text == NULL || read_results(file, (const char*)text);
   free(text);
-  fclose(in);
   return loaded;
 }
 

@@ -32,6 +32,9 @@ bool write_at_end(const results_file* file);
 /* Reads a file that may be there. */
 bool load_results(const results_file* file);
 
+/* All bytes of a file that may be there and a 0 after them, to be freed; NULL if there is none. */
+bool read_file(const char* path, uint8_t** bytes, size_t* size);
+
 bool is_stdout(const char* path);
 
 /* NULL if it can't be. */

@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "result_json.h"
 #include "setup.h"
+#include "tables.h"
 #include "trials.h"
 
 typedef struct {
@@ -45,7 +46,7 @@ static int run_all(run* r) {
   r->result.setting = setting;
   if (!open_record(r)) return exit_usage;
   const campaign all = {o, &r->setup.trial, &r->result, 1, r->record, &file};
-  if (!save_results(&file) || !run_trials(&all)) return exit_usage;
+  if (!save_results(&file) || !run_trials(&all) || !save_tables(o->tables, r->setup.scenario)) return exit_usage;
   return report(r, &file);
 }
 

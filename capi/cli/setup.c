@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tables.h"
+
 static bool failed(const char* what) {
   fprintf(stderr, "tactus: %s\n", what);
   return false;
@@ -42,6 +44,7 @@ bool load_setup(const trial_options* options, loaded_setup* setup) {
   if (tactus_scenario_load(options->scenario, &setup->scenario) != TACTUS_OK ||
       tactus_scenario_dof(setup->scenario, &trial->dof) != TACTUS_OK)
     return failed(tactus_last_error());
+  if (!load_tables(options->tables, setup->scenario)) return false;
   setup->start = malloc(trial->dof * sizeof *setup->start);
   if (setup->start == NULL) return failed("out of memory");
   if (tactus_scenario_start(setup->scenario, setup->start, trial->dof, &trial->dof) != TACTUS_OK)

@@ -100,6 +100,26 @@ TACTUS_API tactus_status tactus_scenario_sample_pose(const tactus_scenario* scen
 /** From x y z in metres and roll pitch yaw in radians, about the fixed axes x, then y, then z, as in a URDF. */
 TACTUS_API tactus_status tactus_pose_from_rpy(const double xyzrpy[6], double pose[7]) TACTUS_NOEXCEPT;
 
+/* --- keeping what was worked out */
+
+/**
+ * Where the tool touches targets all over the prior, as beliefs have worked it out so far for motions along the axes of
+ * the base: with it the next program's beliefs take in such motions in milliseconds at once. It makes no difference to
+ * what they answer. `bytes`: uint8_t (count); the count may grow between two calls while beliefs step in other threads.
+ */
+TACTUS_API tactus_status tactus_scenario_save_tables(const tactus_scenario* scenario, uint8_t* bytes, size_t capacity,
+                                                     size_t* count) TACTUS_NOEXCEPT;
+
+/**
+ * Takes in what was saved, in the place of what has been worked out so far. The scenario counts as constant all the
+ * same: any number of threads may use it meanwhile.
+ *
+ * TACTUS_BAD_SAVED_STATE, TACTUS_WRONG_SCENARIO (another tool, target, prior or size of cells); then nothing has
+ * changed.
+ */
+TACTUS_API tactus_status tactus_scenario_restore_tables(const tactus_scenario* scenario, const uint8_t* bytes,
+                                                        size_t size) TACTUS_NOEXCEPT;
+
 /* --- what to draw */
 
 typedef int32_t tactus_body_kind;

@@ -14,8 +14,7 @@ using contact::LatticePose;
 constexpr std::size_t tool = 0;
 constexpr double off_site = 1e-5;  // m that a point of a tool may be off where it would be on its site
 constexpr double usual_pitch = 0.004;
-constexpr std::size_t most_bytes = std::size_t{256} << 20;
-constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'T'}, 1};
+constexpr std::size_t most_bytes = std::size_t{512} << 20;
 
 /// Of a grid's cells in x, y, z (m). Where the prior has no width, there is one cell, as wide as the others.
 Vector3 pitch_of(const CellShape& shape) {
@@ -63,14 +62,11 @@ Lattice lattice_of(const Task& task, const CellShape& shape) {
   return lattice;
 }
 
-/// How far a point of the target may be from where it is at a cell's central pose, and what may be off besides.
-double slack_of(const Task& task, const CellShape& shape) {
+/// What the tool must be deflated by for every pose of a cell to be touched where the central one is.
+double depth_of(const Task& task, const CellShape& shape) {
   return scene::cell_radius(shape.half, task.target_reach()) + task.options().contact_margin +
-         task.options().sensing.encoder_error;
+         task.options().sensing.encoder_error + off_site;
 }
-
-/// Of the waypoints at which a contact may have been (`Trace::slack`).
-double stop_slack(const Task& task) { return task.options().sensing.stopping_distance > 0.0 ? touch_spacing : 0.0; }
 
 bool is_near(const Trace& trace, std::size_t body, std::size_t waypoint) {
   const BodyPath::Range& near = trace.bodies.near_region(body);
@@ -86,113 +82,53 @@ action::ToolSites CellTables::sites(const CellShape& shape, double step) {
 CellTables::CellTables(const Task& task, const CellShape& shape)
     : task_(task),
       shape_(shape),
-      lattice_(lattice_of(task, shape)),
-      lattice_from_base_(lattice_.base_from_lattice.inverse()),
-      near_site_(0.5 * task.options().sites->step.maxCoeff() + off_site),
-      surely_(task.target_contact(), lattice_, -slack_of(task, shape) - off_site, most_bytes),
-      perhaps_(task.target_contact(), lattice_, slack_of(task, shape) + near_site_ + stop_slack(task), most_bytes) {}
+      touched_(task.target_contact(), lattice_of(task, shape), -depth_of(task, shape), most_bytes),
+      lattice_from_base_(touched_.lattice().base_from_lattice.inverse()) {}
 
-/// Where the tool stands at a waypoint, if no point of it is farther than `within` from where it is at that site.
-std::optional<LatticePose> CellTables::site(const Trace& trace, std::size_t waypoint, double within) const {
+/// Where the tool stands at a waypoint, if that is a site.
+std::optional<LatticePose> CellTables::site(const Trace& trace, std::size_t waypoint) const {
+  const Lattice& lattice = touched_.lattice();
   const Pose& base_from_tool = trace.bodies.base_from_body(waypoint, tool);
   const Vector3 steps =
-      lattice_.parts * (lattice_from_base_ * base_from_tool.translation()).cwiseQuotient(lattice_.pitch);
+      lattice.parts * (lattice_from_base_ * base_from_tool.translation()).cwiseQuotient(lattice.pitch);
   LatticePose pose;
   for (int d = 0; d < 3; ++d) pose.at[static_cast<std::size_t>(d)] = static_cast<int>(std::lround(steps[d]));
   const geometry::Box& box = task_.bodies().body(tool).tree().box();
-  const double off = geometry::largest_displacement(box, lattice_.base_from_tool(pose), base_from_tool);
-  return off <= within ? std::optional(pose) : std::nullopt;
+  const double off = geometry::largest_displacement(box, lattice.base_from_tool(pose), base_from_tool);
+  return off <= off_site ? std::optional(pose) : std::nullopt;
 }
 
-bool CellTables::links_near(const Trace& trace, std::size_t waypoint) const {
+/// Whether the tables tell all there is to know of a waypoint.
+bool CellTables::answers(const Trace& trace, std::size_t waypoint) const {
   for (std::size_t body = 0; body < task_.bodies().size(); ++body)
-    if (body != tool && is_near(trace, body, waypoint)) return true;
-  return false;
-}
-
-std::vector<LatticePose> CellTables::free_sites(const Trace& trace) const {
-  std::vector<LatticePose> sites;
-  for (std::size_t i = 0; i < trace.touch; ++i)
-    if (is_near(trace, tool, i))
-      if (const auto pose = site(trace, i, off_site)) sites.push_back(*pose);
-  return sites;
-}
-
-/// Empty if one of the waypoints at which the contact may have been is far from any, or a link is near there.
-std::vector<LatticePose> CellTables::touch_sites(const Trace& trace) const {
-  std::vector<LatticePose> sites;
-  for (std::size_t i = trace.touch; i < trace.path.size(); ++i) {
-    const auto pose = site(trace, i, near_site_);
-    if (!pose || links_near(trace, i)) return {};
-    sites.push_back(*pose);
-  }
-  return sites;
-}
-
-/// Calls `visit(first, mask)` for the cells `first + i` of every bit i of the mask: those that the tables say are
-/// touched at one of some sites.
-template <typename Visit>
-void CellTables::for_each_touched(const contact::ContactTables& tables, std::vector<LatticePose> sites,
-                                  Visit&& visit) const {
-  if (sites.empty()) return;
-  sites.insert(sites.begin(), sites.front());
-  const auto row_length = static_cast<std::size_t>(lattice_.count[0]);
-  tables.first_contacts(sites).for_each_touched([&](std::size_t word, std::uint64_t cells) {
-    const std::size_t row = word / lattice_.row_words(), column = 64 * (word % lattice_.row_words());
-    visit(row * row_length + column, cells);
-  });
+    if (body != tool && is_near(trace, body, waypoint)) return false;
+  return !is_near(trace, tool, waypoint) || site(trace, waypoint);
 }
 
 void CellTables::sift(const Trace& trace, Bitset& members) const {
-  for_each_touched(surely_, free_sites(trace),
-                   [&](std::size_t first, std::uint64_t mask) { members.reset_bits(first, mask); });
-  const std::vector<LatticePose> touch = touch_sites(trace);
-  if (touch.empty()) return;
-  Bitset touched(members.size());
-  for_each_touched(perhaps_, touch, [&](std::size_t first, std::uint64_t mask) { touched.set_bits(first, mask); });
-  members &= touched;
+  LatticeMotion sites;
+  for (std::size_t i = 0; i < trace.touch; ++i)
+    if (is_near(trace, tool, i))
+      if (const auto pose = site(trace, i)) sites.push_back(*pose);
+  if (sites.empty()) return;
+  sites.insert(sites.begin(), sites.front());
+  const Lattice& lattice = touched_.lattice();
+  const auto row_length = static_cast<std::size_t>(lattice.count[0]);
+  touched_.first_contacts(sites).for_each_touched([&](std::size_t word, std::uint64_t cells) {
+    const std::size_t row = word / lattice.row_words(), column = 64 * (word % lattice.row_words());
+    members.reset_bits(row * row_length + column, cells);
+  });
 }
 
 Trace CellTables::rest(const Trace& trace) const {
   Trace rest = trace;
   rest.path.clear();
   for (std::size_t i = 0; i < trace.touch; ++i)
-    if (links_near(trace, i) || (is_near(trace, tool, i) && !site(trace, i, off_site)))
-      rest.path.push_back(trace.path[i]);
+    if (!answers(trace, i)) rest.path.push_back(trace.path[i]);
   rest.touch = rest.path.size();
-  rest.contact = trace.contact && touch_sites(trace).empty();
-  if (rest.contact)
-    rest.path.insert(rest.path.end(), trace.path.begin() + static_cast<std::ptrdiff_t>(trace.touch), trace.path.end());
+  rest.path.insert(rest.path.end(), trace.path.begin() + static_cast<std::ptrdiff_t>(trace.touch), trace.path.end());
   rest.bodies = BodyPath(task_.bodies(), rest.path);
   return rest;
-}
-
-std::vector<std::uint8_t> CellTables::save() const {
-  support::ByteWriter out(seal);
-  for (const auto* tables : {&surely_, &perhaps_}) {
-    const std::vector<std::uint8_t> bytes = tables->save();
-    out.u64(bytes.size());
-    for (const std::uint8_t byte : bytes) out.u8(byte);
-  }
-  return out.sealed();
-}
-
-void CellTables::restore(const std::uint8_t* bytes, std::size_t size) const {
-  support::ByteReader in(seal, "saved tables", bytes, size);
-  std::array<std::vector<std::uint8_t>, 2> saved;
-  for (std::vector<std::uint8_t>& part : saved) {
-    part.resize(in.count(1, "tables"));
-    for (std::uint8_t& byte : part) byte = in.u8("tables");
-  }
-  in.finish();
-  const std::vector<std::uint8_t> before = surely_.save();
-  surely_.restore(saved[0].data(), saved[0].size());
-  try {
-    perhaps_.restore(saved[1].data(), saved[1].size());
-  } catch (...) {
-    surely_.restore(before.data(), before.size());
-    throw;
-  }
 }
 
 }  // namespace tactus::belief

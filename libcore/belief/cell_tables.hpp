@@ -8,9 +8,9 @@
 
 namespace tactus::belief {
 
-/// What a tool that stands on its sites does to the cells of a grid, from tables of contact: they share a lattice.
-/// There are tables of the tool deflated by a cell's radius (every pose of the cell is touched) and inflated by it
-/// (some may be), made when first asked for. Any number of threads.
+/// What a tool that stands on its sites does to the cells of a grid, from tables of contact: cells and sites share a
+/// lattice. The tables are of the tool deflated by a cell's radius, so that every pose of a cell is touched where they
+/// say so; they are made when first asked for. Any number of threads.
 class CellTables {
  public:
   /// The sites for cells of this shape: at their centres, and evenly between them, at most `step` (m) apart.
@@ -21,37 +21,28 @@ class CellTables {
 
   const CellShape& shape() const { return shape_; }
 
-  /// Drops from `members` the cells that a trace tells nothing can be in, as far as the tables know: those of which
-  /// every pose is touched where the tool was free, on a site; and those of which none can be touched where it was
-  /// stopped, at most half a step from one. O(rows near the motion), and whatever the tables take to make.
+  /// Drops from `members` the cells every pose of which is touched at a waypoint at which the tool was free and stood
+  /// on a site. O(rows near the motion), and whatever the tables take to make.
   void sift(const Trace& trace, Bitset& members) const;
 
-  /// What of a trace `sift` leaves to be asked otherwise: the free waypoints at which the tool stands off its sites, or
-  /// a link may be near the target, and the touch if it was far from one. Without waypoints if that is nothing.
+  /// What of a trace `sift` leaves to be asked otherwise: its contact, and the free waypoints at which the tool stands
+  /// off its sites, or a link may be near the target. Without waypoints if there is nothing left to ask.
   Trace rest(const Trace& trace) const;
 
-  std::size_t bytes() const { return surely_.bytes() + perhaps_.bytes(); }
+  std::size_t bytes() const { return touched_.bytes(); }
 
-  /// The tables made so far, as bytes; and taken in again. Throws as `contact::ContactTables::restore`, and then
-  /// nothing has changed.
-  std::vector<std::uint8_t> save() const;
-  void restore(const std::uint8_t* bytes, std::size_t size) const;
+  /// As `contact::ContactTables::save` and `restore`.
+  std::vector<std::uint8_t> save() const { return touched_.save(); }
+  void restore(const std::uint8_t* bytes, std::size_t size) const { touched_.restore(bytes, size); }
 
  private:
-  std::optional<contact::LatticePose> site(const Trace& trace, std::size_t waypoint, double within) const;
-  std::vector<contact::LatticePose> free_sites(const Trace& trace) const;
-  std::vector<contact::LatticePose> touch_sites(const Trace& trace) const;
-  bool links_near(const Trace& trace, std::size_t waypoint) const;
-  template <typename Visit>
-  void for_each_touched(const contact::ContactTables& tables, std::vector<contact::LatticePose> sites,
-                        Visit&& visit) const;
+  std::optional<contact::LatticePose> site(const Trace& trace, std::size_t waypoint) const;
+  bool answers(const Trace& trace, std::size_t waypoint) const;
 
   const Task& task_;
   CellShape shape_;
-  contact::Lattice lattice_;
+  contact::ContactTables touched_;
   Pose lattice_from_base_;
-  double near_site_;  ///< m that a point of the tool may be off where it would be on a site, when it touches
-  contact::ContactTables surely_, perhaps_;
 };
 
 }  // namespace tactus::belief

@@ -13,8 +13,9 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr double tie = 1e-9;  // rad or m: passes of one path through the same configuration
-constexpr int thirds = 50;    // of a search that leaves two thirds each time
+constexpr double tie = 1e-9;              // rad or m: passes of one path through the same configuration
+constexpr double touch_spacing = 0.0005;  // m
+constexpr int thirds = 50;                // of a search that leaves two thirds each time
 
 void check(const Task& task, const Observation& observation) {
   const int dof = task.scene().robot->dof();

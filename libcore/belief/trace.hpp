@@ -34,9 +34,6 @@ struct Stop {
 /// stop tolerance or the encoder error), and `invalid_argument` for a NaN or a wrong number of joints.
 Stop locate(const Task& task, const Action& action, const Observation& observation);
 
-/// m that no point of the robot exceeds between the waypoints at which a robot that travels on may have touched.
-inline constexpr double touch_spacing = 0.0005;
-
 /// An action as far as it went, in a form in which it can be replayed against any pose: free at its waypoints; with
 /// contact, in touch at one of the last, between which and the reported stop a robot that travels on may have gone.
 struct Trace {

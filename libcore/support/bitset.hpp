@@ -32,11 +32,7 @@ class Bitset {
   bool any_in(std::size_t begin, std::size_t end) const;
   void reset_in(std::size_t begin, std::size_t end);
 
-  /// Of the integers `begin + i` for every bit i of `mask`. None may be >= size.
-  void set_bits(std::size_t begin, std::uint64_t mask) {
-    words_[begin >> 6] |= mask << (begin & 63);
-    if (const std::uint64_t above = mask >> 1 >> (63 - (begin & 63)); above != 0) words_[(begin >> 6) + 1] |= above;
-  }
+  /// Resets `begin + i` for every bit i of `mask`. None may be >= size.
   void reset_bits(std::size_t begin, std::uint64_t mask) {
     words_[begin >> 6] &= ~(mask << (begin & 63));
     if (const std::uint64_t above = mask >> 1 >> (63 - (begin & 63)); above != 0) words_[(begin >> 6) + 1] &= ~above;

@@ -124,6 +124,8 @@ CHECKED = {
     "tactus_scenario_costs": [_scenario, POINTER(CostsStruct)],
     "tactus_scenario_limits": [_scenario, POINTER(LimitsStruct)],
     "tactus_scenario_sample_pose": [_scenario, c_uint64, _doubles],
+    "tactus_scenario_save_tables": [_scenario, _bytes, c_size_t, _size],
+    "tactus_scenario_restore_tables": [_scenario, _bytes, c_size_t],
     "tactus_pose_from_rpy": [_doubles, _doubles],
     "tactus_scenario_body_count": [_scenario, _size],
     "tactus_scenario_body_name": [_scenario, c_size_t, _text],

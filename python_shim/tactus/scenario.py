@@ -86,6 +86,15 @@ class Scenario(Object):
         call("tactus_scenario_sample_pose", self.handle, seed, pointer(pose))
         return pose
 
+    def save_tables(self):
+        """Where the tool touches targets, as beliefs have worked it out so far, as bytes: for `restore_tables` in the next program."""
+        return rows("tactus_scenario_save_tables", self.handle, dtype=np.uint8).tobytes()
+
+    def restore_tables(self, data):
+        """Takes in what was saved: answers are the same, and sooner there. Raises `BadInput`, `WrongScenario`."""
+        array = np.frombuffer(bytes(data) or b"\0", np.uint8)
+        call("tactus_scenario_restore_tables", self.handle, pointer(array), len(data))
+
     @property
     def bodies(self):
         """Links with a shape, the tool, the static world, the target: a list of `Body`."""

@@ -38,6 +38,7 @@ expect 2 'at least 0' run x.yaml --stopping-distance -0.001
 expect 2 'at least 0' run x.yaml --encoder-error inf
 expect 2 'from 0 to 0.5' run x.yaml --missed-contacts 0.6
 expect 2 'from 0 to 0.5' run x.yaml --false-contacts nan
+expect 2 'can be replaced' run x.yaml --tables -
 expect 2 'unknown option' run x.yaml --solvers rate,tbl
 expect 2 'SCENARIO' compare --solvers rate,tbl
 expect 2 'unknown option' compare x.yaml --solver rate

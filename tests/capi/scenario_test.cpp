@@ -137,4 +137,33 @@ TEST(Scenario, BodiesCanBeDrawn) {
                  TACTUS_INVALID_ARGUMENT, "target_pose");
 }
 
+TEST(Scenario, TablesAreKeptAndTakenInAgain) {
+  const std::string wide = TACTUS_SOURCE_DIR "/examples/scenarios/shelf_3d.yaml";  // more cells than a list takes
+  const shelf::Scenario first = shelf::load(wide), second = shelf::load(wide);
+  const auto saved = [](const tactus_scenario* scenario) {
+    std::size_t count = 0;
+    expect_ok(tactus_scenario_save_tables(scenario, nullptr, 0, &count));
+    std::vector<std::uint8_t> bytes(count);
+    expect_ok(tactus_scenario_save_tables(scenario, bytes.data(), bytes.size(), &count));
+    return bytes;
+  };
+  const std::vector<std::uint8_t> none = saved(first.get());
+  const shelf::Belief belief = shelf::belief(first.get(), TACTUS_BELIEF_PARTICLES);
+  const shelf::Action probe = shelf::query(shelf::planner(first.get()), belief);
+  std::vector<double> end = shelf::waypoints(probe.get());
+  end.erase(end.begin(), end.end() - 6);
+  const tactus_observation seen = shelf::observation(end);
+  expect_ok(tactus_belief_step(belief.get(), probe.get(), &seen));
+  std::vector<std::uint8_t> some = saved(first.get());
+  EXPECT_GT(some.size(), none.size()) << "a probe has been worked out";
+  expect_ok(tactus_scenario_restore_tables(second.get(), some.data(), some.size()));
+  EXPECT_EQ(saved(second.get()), some);
+  some[some.size() / 2] ^= 1;
+  expect_refused(tactus_scenario_restore_tables(second.get(), some.data(), some.size()), TACTUS_BAD_SAVED_STATE,
+                 "tables");
+  expect_refused(tactus_scenario_restore_tables(second.get(), nullptr, 0), TACTUS_INVALID_ARGUMENT, "bytes");
+  some[some.size() / 2] ^= 1;
+  EXPECT_EQ(saved(second.get()), some) << "nothing has changed";
+}
+
 }  // namespace

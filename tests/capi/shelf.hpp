@@ -37,9 +37,9 @@ inline void expect_refused(tactus_status got, tactus_status expected, const std:
 
 inline void expect_ok(tactus_status got) { EXPECT_EQ(got, TACTUS_OK) << tactus_last_error(); }
 
-inline Scenario load() {
+inline Scenario load(const std::string& path = file) {
   tactus_scenario* scenario = nullptr;
-  expect_ok(tactus_scenario_load(file.c_str(), &scenario));
+  expect_ok(tactus_scenario_load(path.c_str(), &scenario));
   return Scenario(scenario);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "contact/small_arm.hpp"
 #include "motion/connect.hpp"
 #include "motion/path_laws.hpp"
@@ -62,6 +64,31 @@ TEST(StraightToolPath, ObeysTheLawsOfPathsInAllDirections) {
         EXPECT_EQ(*path, *motion::straight_tool_path(world, plate, bent, goal, {.step = step}))
             << "the same answer twice";
       }
+}
+
+TEST(StraightToolPath, StandsAtWholeStridesWhereTheStepAllows) {
+  const KnownWorld world(test::small_arm(), {}, {});
+  const int plate = world.model().find_link("plate");
+  const Pose start = robot::forward(world.model(), bent, plate), goal = shifted(start, {0.0, 0.09, 0.0});
+  for (const double stride : {0.0005, 0.001, 0.003, 0.018}) {
+    const auto path = motion::straight_tool_path(world, plate, bent, goal, {.step = 0.004, .stride = stride});
+    ASSERT_TRUE(path);
+    test::expect_free_in_steps(world, *path, 0.004);
+    std::set<long> met;
+    for (const JointVector& q : *path) {
+      const double strides =
+          (robot::forward(world.model(), q, plate).translation() - start.translation()).norm() / stride;
+      const long nearest = std::lround(strides);
+      if (std::abs(strides - static_cast<double>(nearest)) * stride < 1e-6) {
+        met.insert(nearest);
+        continue;
+      }
+      EXPECT_GT(stride, 0.002) << "a waypoint between strides that the step would allow";
+    }
+    if (stride > 0.002) {
+      EXPECT_EQ(met.size(), static_cast<std::size_t>(std::lround(0.09 / stride)) + 1);
+    }
+  }
 }
 
 TEST(StraightToolPath, TurnsOnTheSpot) {

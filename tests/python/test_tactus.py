@@ -102,6 +102,22 @@ def test_save_and_restore(scenario, action):
         tactus.Belief.restore(scenario, b"")
 
 
+def test_tables_are_kept_and_change_no_answer():
+    shelf = ROOT / "examples" / "scenarios" / "shelf_3d.yaml"  # more cells than a list takes
+    first, second = (tactus.Scenario.load(shelf) for _ in range(2))
+    beliefs = [tactus.Belief(scenario, kind="particles") for scenario in (first, second)]
+    action = tactus.Planner(first, expansions=2).query(beliefs[0])
+    seen = tactus.Observation(False, action.waypoints[-1])
+    beliefs[0].step(action, seen)
+    data = first.save_tables()
+    assert len(data) > 10000
+    second.restore_tables(data)
+    beliefs[1].step(tactus.Action.restore(second, action.save()), seen)
+    assert second.save_tables() == data and beliefs[1].save() == beliefs[0].save()
+    with pytest.raises(tactus.BadInput, match="contact tables"):
+        second.restore_tables(data[:-1])
+
+
 def test_arrays_have_their_shapes(scenario, action):
     assert action.waypoints.shape == (len(action.times), 6)
     assert action.kind in ("move", "turn", "sweep", "poke", "insertion")
@@ -198,6 +214,22 @@ def test_command_goes_the_same_way_and_writes_json_and_record(loop_in_c, tmp_pat
         trial["travel_m"] + 0.05 * trial["rotation_rad"] + 0.005 * trial["actions"], rel=1e-6)
     check_record(json.loads(record.read_text()), trial)
     assert record.stat().st_size < 6e6
+
+
+def test_command_keeps_tables_and_goes_the_same_way_with_them(tmp_path):
+    tables = tmp_path / "shelf.tables"
+
+    def trial():
+        document = json.loads("\n".join(run(BUILD / "bin" / "tactus", "run", SHELF, "--seed", SEED, "--belief", "particles",
+                                            "--budget-expansions", EXPANSIONS, "--json", "-", "--tables", tables)))
+        return {name: number for name, number in document["trials"][0].items() if name != "planning_s"}
+
+    first = trial()
+    kept = tables.read_bytes()
+    assert trial() == first and tables.read_bytes() == kept
+    tables.write_bytes(kept[:-1])
+    spoilt = subprocess.run([BUILD / "bin" / "tactus", "run", SHELF, "--tables", tables], capture_output=True, text=True)
+    assert spoilt.returncode == 2 and "--tables" in spoilt.stderr and "contact tables" in spoilt.stderr
 
 
 def test_command_simulates_an_imperfect_robot():
