@@ -13,7 +13,7 @@ namespace {
 using support::ByteReader;
 using support::ByteWriter;
 
-constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 3};
+constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 4};
 constexpr std::uint8_t most_splits = 60;  // of one dimension: far below any use
 
 /// A running hash of whatever a saved belief makes sense with only.
