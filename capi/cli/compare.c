@@ -5,6 +5,7 @@
 #include "comparison.h"
 #include "comparison_json.h"
 #include "setup.h"
+#include "tables.h"
 #include "trials.h"
 
 typedef struct {
@@ -98,7 +99,7 @@ static int run_all(compare* c) {
   if (o->resume && !take_over(c, &setting)) return exit_usage;
   c->comparison.setting = setting;
   const campaign all = {o, c->setups, c->comparison.results, c->comparison.solver_count, NULL, &file};
-  if (!save_results(&file) || !run_trials(&all)) return exit_usage;
+  if (!save_results(&file) || !run_trials(&all) || !save_tables(o->tables, c->setup.scenario)) return exit_usage;
   return report(c, &file);
 }
 
