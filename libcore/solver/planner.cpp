@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::uint64_t own_stream = 0x706c616e;  // apart from whatever else begins with the same seed
 constexpr double noticeable_bits = 0.1;
-constexpr int patience = 3;               // queries in which the belief hardly shrank
+constexpr int patience = 3;  // queries in a stage in which the belief hardly shrank
+constexpr int stages = 3;
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
 }  // namespace
@@ -133,7 +134,7 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
     start = std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)
                 ->start(belief.configuration(), belief.voxels());
   } else {
-    if (standing_.stalls >= patience) poses_.clear();
+    if (standing_.stalls > 0 && standing_.stalls % patience == 0) poses_.clear();
     poses_ = belief.draw(model_->options.particles, rng_, poses_, deadline);
     start = std::make_shared<PoseProblem>(model_->task, library_, poses_, belief.summary().bits, options_.cost_per_bit,
                                           second_value_of(options_.solver))
@@ -163,10 +164,13 @@ Answer Planner::hand_out(const belief::Belief& belief, int node, std::size_t cho
   return {Answer::Kind::action, std::make_shared<const action::Action>(std::move(made))};
 }
 
-/// Once the robot is stuck: small motions about where it is; and once that has not helped, attempts where the target is
-/// not.
+/// While the belief does not shrink: at first nothing is set aside; then small motions about where the robot is; then
+/// attempts too; and then all are tried again.
+Planner::Stage Planner::stage() const { return static_cast<Stage>(standing_.stalls / patience % stages); }
+
 bool Planner::is_unpromising(const action::Motion& motion) const {
-  return !motion.anchored || (standing_.stalls >= 2 * patience && motion.kind == action::Kind::insertion);
+  return (stage() != Stage::all && !motion.anchored) ||
+         (stage() == Stage::probes && motion.kind == action::Kind::insertion);
 }
 
 /// The best motion at a node, made executable; the next best where the robot can't get to its start.
@@ -179,10 +183,8 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
     banned[choice] = true;
     verdicts[choice] = verdict;
   };
-  const bool is_stuck = standing_.stalls >= patience;
-  if (is_stuck)
-    for (std::size_t i = 0; i < choices.size(); ++i)
-      if (is_unpromising(*choices[i].motion)) ban(i, Verdict::set_aside);
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    if (is_unpromising(*choices[i].motion)) ban(i, Verdict::set_aside);
   if (std::find(banned.begin(), banned.end(), false) == banned.end()) std::fill(banned.begin(), banned.end(), false);
   const auto next = [&] {
     const auto rule = greedy_of(options_.solver);
@@ -191,7 +193,7 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   for (auto choice = next(); choice; choice = next()) {
     const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
     auto made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited,
-                                  is_stuck ? belief.way_back() : motion::JointPath{});
+                                  stage() == Stage::all ? motion::JointPath{} : belief.way_back());
     if (made &&
         std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
       verdicts[*choice] = Verdict::chosen;

@@ -53,6 +53,8 @@ class Planner {
   std::optional<int> followed(const belief::Belief& belief);
   Answer act(const belief::Belief& belief, int node, const support::Deadline& deadline);
   Answer hand_out(const belief::Belief& belief, int node, std::size_t choice, action::Action made);
+  enum class Stage { all, anchored, probes };  ///< what is tried
+  Stage stage() const;
   bool is_unpromising(const action::Motion& motion) const;
   void plan(const belief::Belief& belief, support::Deadline& deadline);
 
@@ -61,8 +63,9 @@ class Planner {
   std::shared_ptr<action::ActionLibrary> library_;
   support::Rng rng_;
   /// An action that left the belief and the configuration as they were is not handed out again until something changes;
-  /// and after some queries in which the belief hardly shrank only anchored motions are: the poses planned on promise
-  /// more of small touches than the cells can take in. Begins anew with a belief that has been through something else.
+  /// and after some queries in which the belief hardly shrank only anchored motions are, then only probes, then all
+  /// again: the poses planned on promise more of small touches than the cells can take in. Begins anew with a belief
+  /// that has been through something else.
   void note_fruitless(const belief::Belief& belief);
 
   struct Standing {

@@ -326,6 +326,36 @@ TEST(Stuck, GoesBackAsItCameAndSetsOutFromTheRetreatPlane) {
   EXPECT_GT(stuck, 6);
 }
 
+/// And if that does not help either: small motions and attempts are set aside in turn, and tried again.
+TEST(Stuck, TriesEverythingAgainInTurn) {
+  Rng rng(13);
+  const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+  Belief belief(model(Kind::particles), task()->scene().start);
+  Planner planner(model(Kind::particles), within(4));
+  while (belief.history().empty() || !belief.history().back().contact) {
+    const Answer answer = planner.query(belief);
+    ASSERT_TRUE(answer.action);
+    belief.step(*answer.action, world.execute(*answer.action));
+  }
+  std::vector<std::pair<bool, bool>> kept;  // whether small motions, and attempts, were
+  for (int i = 0; i < 16; ++i) {
+    const Answer answer = planner.query(belief);
+    ASSERT_TRUE(answer.action) << i;
+    bool small = false, attempts = false;
+    for (const solver::Alternative& alternative : planner.alternatives()) {
+      if (alternative.verdict == solver::Verdict::set_aside) continue;
+      small = small || !alternative.choice.motion->anchored;
+      attempts = attempts || alternative.choice.motion->kind == action::Kind::insertion;
+    }
+    kept.emplace_back(small, attempts);
+    belief.step(*answer.action, {false, belief.configuration()});
+  }
+  const auto first_without_small = std::find(kept.begin(), kept.end(), std::pair(false, true));
+  const auto first_without_both = std::find(first_without_small, kept.end(), std::pair(false, false));
+  EXPECT_NE(first_without_both, kept.end());
+  EXPECT_NE(std::find(first_without_both, kept.end(), std::pair(true, true)), kept.end());
+}
+
 /// Were its poses drawn from the sequence that begins with its seed, they would be those that whoever draws the true
 /// pose by the same seed gets first.
 TEST(Chance, OfAPlannerIsItsOwn) {
