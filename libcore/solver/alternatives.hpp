@@ -14,7 +14,7 @@ enum class Verdict : std::int32_t {
   passed_over = 0,  ///< a better one was found
   chosen = 1,       ///< handed out
   unreachable = 2,  ///< no free way to its start
-  set_aside = 3,    ///< it changed nothing when it was last tried, or it is a small one and the belief has stalled
+  set_aside = 3,    ///< it changed nothing when it was last tried, or others come first while the belief stalls
 };
 
 /// A motion weighed for an answer.
