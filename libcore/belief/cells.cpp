@@ -166,10 +166,8 @@ bool CellBelief::may_reproduce(const Task& task, const std::vector<Trace>& histo
   return false;
 }
 
-/// Of those that may be split.
 bool CellBelief::any_coarser(const std::vector<Cell>& cells, double wanted) const {
-  return std::any_of(cells.begin(), cells.end(),
-                     [&](const Cell& cell) { return radius(cell) > wanted && may_split(cell); });
+  return std::any_of(cells.begin(), cells.end(), [&](const Cell& cell) { return radius(cell) > wanted; });
 }
 
 /// Halves the dimension along which the target's points move most.
@@ -224,11 +222,12 @@ PoseVector CellBelief::draw_in(const Cell& cell, support::Rng& rng) const {
 
 /// With the coarsest ones split, up to `most` of them, and the halves that can't have given the history left out.
 std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
-                                                 const std::vector<Cell>& cells, std::size_t most) const {
+                                                 const std::vector<Cell>& cells, std::size_t most,
+                                                 double finest) const {
   const double split_from = 0.8 * coarsest(cells);
   std::vector<Cell> candidates, kept;
   for (const Cell& cell : cells) {
-    if (radius(cell) > split_from && may_split(cell) && candidates.size() < 2 * most)
+    if (radius(cell) > std::max(split_from, finest) && candidates.size() < 2 * most)
       split(cell, candidates);
     else
       kept.push_back(cell);
@@ -260,7 +259,7 @@ std::vector<Cell> CellBelief::draw_parts(const Task& task, const std::vector<Tra
                                          double wanted, support::Rng& rng, const support::Deadline& deadline) const {
   std::vector<Cell> parts = by_lot(count, rng);
   while (any_coarser(parts, wanted) && deadline.used_fraction() < 0.5) {
-    parts = halves_of_coarsest(task, history, parts, parts.size());
+    parts = halves_of_coarsest(task, history, parts, parts.size(), wanted);
     if (parts.size() > 2 * count) parts = thinned(parts, count, rng);
   }
   return parts.size() > count ? thinned(parts, count, rng) : parts;
@@ -285,7 +284,8 @@ bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
   const std::size_t least_room = std::max<std::size_t>(1, options_.most / 16);
   while (!grid_ && cells_.size() + least_room <= options_.most && !(enough && enough(*this)) &&
          any_coarser(cells_, options_.finest_radius)) {
-    std::vector<Cell> kept = halves_of_coarsest(task, history, cells_, options_.most - cells_.size());
+    std::vector<Cell> kept =
+        halves_of_coarsest(task, history, cells_, options_.most - cells_.size(), options_.finest_radius);
     if (kept.empty()) return false;
     cells_ = std::move(kept);
     weigh();
@@ -375,7 +375,7 @@ double CellBelief::estimated_tests(const Task& task, const std::vector<Trace>& h
   double all = static_cast<double>(size()), tests = 0.0;
   while (any_coarser(parts, wanted)) {
     const auto before = static_cast<double>(parts.size());
-    parts = halves_of_coarsest(task, history, parts, parts.size());
+    parts = halves_of_coarsest(task, history, parts, parts.size(), wanted);
     tests += 2.0 * all;
     all *= static_cast<double>(parts.size()) / before;
     if (parts.size() > 2 * lot) parts = thinned(parts, lot, rng);

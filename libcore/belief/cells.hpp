@@ -81,9 +81,10 @@ class CellBelief {
   Cell draw_cell(support::Rng& rng) const;  ///< by weight
   PoseVector draw_in(const Cell& cell, support::Rng& rng) const;
 
-  /// About `count` parts of cells, each of at most `radius` (m), drawn by weight from all the parts of that size that
-  /// may have given the history: cells are split, the parts tested, and again and again all but `count` of them left
-  /// out by lot. Empty if none was met. Stops early, with coarser parts, once half of a budget in seconds is used up.
+  /// About `count` parts of cells, each of at most `radius` (m; it may be finer than cells are split), drawn by weight
+  /// from all the parts of that size that may have given the history: cells are split, the parts tested, and again and
+  /// again all but `count` of them left out by lot. Empty if none was met. Stops early, with coarser parts, once half
+  /// of a budget in seconds is used up.
   std::vector<Cell> draw_parts(const Task& task, const std::vector<Trace>& history, std::size_t count, double radius,
                                support::Rng& rng,
                                const support::Deadline& deadline = support::Deadline::unlimited()) const;
@@ -100,7 +101,7 @@ class CellBelief {
   double coarsest(const std::vector<Cell>& cells) const;
   bool any_coarser(const std::vector<Cell>& cells, double wanted) const;
   std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
-                                       const std::vector<Cell>& cells, std::size_t most) const;
+                                       const std::vector<Cell>& cells, std::size_t most, double finest) const;
   bool may_reproduce(const Task& task, const std::vector<Trace>& history, std::vector<std::size_t>& order,
                      const Cell& cell) const;
   struct Inside;

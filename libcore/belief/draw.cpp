@@ -12,6 +12,7 @@ constexpr std::size_t pays_from = 3;          // one in so many is exact
 constexpr double least_near = 0.001;          // m by which a pose may miss the history and serve for planning
 constexpr double near_share = 0.15;           // of a cell's radius by which it may
 constexpr std::size_t lots_per_pose = 6;      // of fine parts, most of which may turn out to be empty
+constexpr double finest_part = 0.00025;       // m: radius of the parts that poses are drawn from
 constexpr double least_step = -6.0;           // log2 of how much of a cell's width
 constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
 constexpr std::size_t unproved_share = 8;     // of them anywhere in a cell, for what no other speaks for
@@ -62,10 +63,10 @@ class Draw {
     }
   }
 
-  /// Of parts that may have given the history to a fraction of a millimetre, as many by lot as are wanted.
+  /// Of parts that may have given the history to a quarter of a millimetre, as many by lot as are wanted.
   void from_fine_parts() {
     std::vector<Cell> parts =
-        cells_.draw_parts(belief_.task(), belief_.history(), lots_per_pose * count_, fine_radius, rng_, deadline_);
+        cells_.draw_parts(belief_.task(), belief_.history(), lots_per_pose * count_, finest_part, rng_, deadline_);
     std::erase_if(parts, [&](const Cell& part) { return cells_.radius(part) > fine_radius; });
     for (std::size_t i = 0; i < parts.size() && size() < count_; ++i) {
       std::swap(parts[i], parts[i + rng_.below(parts.size() - i)]);

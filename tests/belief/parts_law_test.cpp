@@ -46,7 +46,7 @@ TEST(Parts, LieInACellAreFineEnoughAndMayHaveGivenTheHistory) {
     for (int i = 0; i < 6; ++i) {
       episode.step();
       const CellBelief& cells = episode.belief.cells();
-      const double radius = rng.uniform(0.001, 0.005);
+      const double radius = 0.005 * std::exp2(-6.0 * rng.uniform());  // finer than cells are split, too
       for (const Cell& part : draw(episode.belief, 30, radius, rng)) {
         ASSERT_FALSE(cells.all_of([&](const Cell& cell) { return !holds(cells, cell, part); }));
         ASSERT_LE(cells.radius(part), radius);
