@@ -294,6 +294,14 @@ double past_plane(const JointVector& q, const JointVector& start) {
   return axis.dot(task()->base_from_tool(q).translation() - task()->base_from_tool(start).translation());
 }
 
+void act_until_contact(Planner& planner, const PlainWorld& world, Belief& belief) {
+  while (belief.history().empty() || !belief.history().back().contact) {
+    const Answer answer = planner.query(belief);
+    ASSERT_TRUE(answer.action);
+    belief.step(*answer.action, world.execute(*answer.action));
+  }
+}
+
 /// A robot that is halted again and again learns nothing: then it goes back the way it came, and sets out anew.
 TEST(Stuck, GoesBackAsItCameAndSetsOutFromTheRetreatPlane) {
   int stuck = 0;
@@ -302,11 +310,7 @@ TEST(Stuck, GoesBackAsItCameAndSetsOutFromTheRetreatPlane) {
     const PlainWorld world(*task(), task()->scene().prior.sample(rng));
     Belief belief(model(Kind::particles), task()->scene().start);
     Planner planner(model(Kind::particles), within(6));
-    while (belief.history().empty() || !belief.history().back().contact) {
-      const Answer answer = planner.query(belief);
-      ASSERT_TRUE(answer.action);
-      belief.step(*answer.action, world.execute(*answer.action));
-    }
+    ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
     for (int i = 0; i < 8; ++i) {
       const Answer answer = planner.query(belief);
       if (!answer.action) break;
@@ -332,11 +336,7 @@ TEST(Stuck, TriesEverythingAgainInTurn) {
   const PlainWorld world(*task(), task()->scene().prior.sample(rng));
   Belief belief(model(Kind::particles), task()->scene().start);
   Planner planner(model(Kind::particles), within(4));
-  while (belief.history().empty() || !belief.history().back().contact) {
-    const Answer answer = planner.query(belief);
-    ASSERT_TRUE(answer.action);
-    belief.step(*answer.action, world.execute(*answer.action));
-  }
+  ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
   std::vector<std::pair<bool, bool>> kept;  // whether small motions, and attempts, were
   for (int i = 0; i < 16; ++i) {
     const Answer answer = planner.query(belief);
