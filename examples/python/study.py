@@ -26,11 +26,14 @@ class Setting(NamedTuple):
     seconds: int  # that a trial takes one core, about, with 20 expansions
 
 
+NOISE = ["--stopping-distance", "0.002", "--encoder-error", "0.0001", "--missed-contacts", "0.02", "--false-contacts", "0.02"]
+
 SETTINGS = [
     Setting("shelf_3d", "shelf_3d", ["--belief", "particles"], 600, 10),
     Setting("base_4d", "base_4d", ["--belief", "particles"], 200, 45),
     Setting("sim_5d", "sim_5d", ["--belief", "particles"], 200, 120),
-    Setting("shelf_3d_noise", "shelf_3d", ["--belief", "particles", "--stopping-distance", "0.002"], 200, 300),
+    Setting("shelf_3d_told", "shelf_3d_noise", ["--belief", "particles"], 100, 180),
+    Setting("shelf_3d_untold", "shelf_3d", ["--belief", "particles", *NOISE], 100, 180),
 ]
 
 

@@ -56,9 +56,11 @@ TACTUS_API void tactus_belief_destroy(tactus_belief* belief) TACTUS_NOEXCEPT;
 /**
  * Takes in what the robot reported after it executed `action`. The belief's configuration becomes the last free
  * waypoint after a contact (see `tactus_action_retreat`), and where the robot stopped without one. A stop without
- * contact midway is legal: what was travelled is free. An observation that contradicts all that is known does not empty
- * the belief: its health says so, and of all observations as few as explain it (it need not be the last) are doubted
- * from then on.
+ * contact midway is legal: what was travelled is free. Observations that contradict each other do not empty the
+ * belief. Its health says so, and the robot is one that errs from then on, as it is from the first if the scenario says
+ * that it misses contacts or feels some where there are none: every pose of the prior keeps a weight, by how likely the
+ * history is from there, the belief is in its phase of poses, and what the likeliest explanation takes for wrong is
+ * doubted (it need not be the last observation).
  *
  * Some 0.1 s, the first steps of a wide prior 1 to 3 s. In five dimensions, once or twice before the tool is in, some
  * ten to forty seconds: cells are looked into there for what they hold, by up to two hundred tests for each of
@@ -90,7 +92,7 @@ enum {
 
 enum {
   TACTUS_HEALTH_GOOD = 0,
-  TACTUS_HEALTH_CONTRADICTED = 1 /**< the observations contradicted each other: some are doubted, and left out */
+  TACTUS_HEALTH_CONTRADICTED = 1 /**< the observations contradicted each other: some are doubted */
 };
 
 /** A belief in numbers. Six numbers of a pose are x y z (m) and roll pitch yaw (rad, as in `tactus_pose_from_rpy`). */
@@ -135,7 +137,7 @@ TACTUS_API tactus_status tactus_belief_modes(const tactus_belief* belief, double
 
 /**
  * What was done and felt, in order. `events`: int32_t (count x 3), of each the kind of the action
- * (`tactus_action_kind`), 1 for a contact, and 1 if it is doubted: it contradicts the rest, and is left out.
+ * (`tactus_action_kind`), 1 for a contact, and 1 if it is doubted: the likeliest explanation of all has it wrong.
  */
 TACTUS_API tactus_status tactus_belief_history(const tactus_belief* belief, int32_t* events, size_t capacity,
                                                size_t* count) TACTUS_NOEXCEPT;

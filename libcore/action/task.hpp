@@ -47,6 +47,7 @@ struct Sensing {
   double encoder_error = 0.0;      ///< m by which the reported joints may put a point of the tool off
   double missed_contacts = 0.0;    ///< share of contacts that are not felt
   double false_contacts = 0.0;     ///< share of motions that are stopped by a contact that was none
+  bool operator==(const Sensing&) const = default;
 };
 
 struct TaskOptions {

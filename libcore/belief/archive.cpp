@@ -13,7 +13,7 @@ namespace {
 using support::ByteReader;
 using support::ByteWriter;
 
-constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 4};
+constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 5};
 constexpr std::uint8_t most_splits = 60;  // of one dimension: far below any use
 
 /// A running hash of whatever a saved belief makes sense with only.
@@ -110,14 +110,35 @@ VoxelBelief read_voxels(ByteReader& from, const std::shared_ptr<const VoxelModel
   return VoxelBelief::restored(model, std::move(possibly_occupied), std::move(candidates));
 }
 
+void write_cell(ByteWriter& to, const Cell& cell) {
+  for (const double value : cell.centre) to.f64(value);
+  for (const std::uint8_t splits : cell.splits) to.u8(splits);
+}
+
 void write_cells(ByteWriter& to, const CellBelief& cells) {
   to.u8(cells.grid() ? 1 : 0);
   if (cells.grid()) return write_set(to, cells.grid()->members());
   to.u64(cells.size());
-  cells.for_each([&](const Cell& cell) {
-    for (const double value : cell.centre) to.f64(value);
-    for (const std::uint8_t splits : cell.splits) to.u8(splits);
-  });
+  cells.for_each([&](const Cell& cell) { write_cell(to, cell); });
+}
+
+void write_weighed(ByteWriter& to, const WeighedCells& cells) {
+  const action::Sensing& sensing = cells.sensing();
+  for (const double value :
+       {sensing.stopping_distance, sensing.encoder_error, sensing.missed_contacts, sensing.false_contacts})
+    to.f64(value);
+  to.u64(cells.all().size());
+  for (const WeighedCells::Weighed& weighed : cells.all()) {
+    write_cell(to, weighed.cell);
+    to.f64(weighed.floor);
+    to.u32(weighed.floor_of);
+    to.u64(weighed.doubts.size());
+    for (const Doubt& doubt : weighed.doubts) {
+      to.u32(doubt.trace);
+      to.u8(static_cast<std::uint8_t>(doubt.fault));
+      to.u8(doubt.is_certain ? 1 : 0);
+    }
+  }
 }
 
 Cell read_cell(ByteReader& from, const scene::Prior& prior) {
@@ -152,6 +173,47 @@ CellBelief read_cells(ByteReader& from, const Model& model) {
   return CellBelief::restored(task, options, std::move(cells));
 }
 
+std::uint16_t read_trace_index(ByteReader& from, std::size_t end) {
+  const std::uint32_t trace = from.u32("doubted observation");
+  if (trace >= end) from.fail("doubted observation", std::to_string(trace), "less than " + std::to_string(end));
+  return static_cast<std::uint16_t>(trace);
+}
+
+Doubt read_doubt(ByteReader& from, std::size_t traces) {
+  const std::uint16_t trace = read_trace_index(from, traces);
+  const std::uint8_t fault = from.u8("fault of an observation");
+  if (fault > static_cast<std::uint8_t>(Fault::inside))
+    from.fail("fault of an observation", std::to_string(fault), "0, 1 or 2");
+  return {trace, static_cast<Fault>(fault), from.flag("certainty of a fault")};
+}
+
+action::Sensing read_sensing(ByteReader& from) {
+  action::Sensing sensing;
+  for (double* value :
+       {&sensing.stopping_distance, &sensing.encoder_error, &sensing.missed_contacts, &sensing.false_contacts}) {
+    *value = from.finite("errors of observations");
+    if (*value < 0.0) from.fail("errors of observations", std::to_string(*value), "not less than 0");
+  }
+  return sensing;
+}
+
+WeighedCells read_weighed(ByteReader& from, const Model& model, const std::vector<Trace>& history) {
+  const action::Sensing sensing = read_sensing(from);
+  std::vector<WeighedCells::Weighed> cells(from.count(6 * (8 + 1) + 8 + 4 + 8, "weighed cells"));
+  if (cells.empty()) from.fail("weighed cells", "none", "at least one");
+  for (WeighedCells::Weighed& weighed : cells) {
+    weighed.cell = read_cell(from, model.task->scene().prior);
+    weighed.floor = from.f64("floor of a cell");
+    if (!(weighed.floor >= 0.0)) from.fail("floor of a cell", std::to_string(weighed.floor), "at least 0 bits");
+    weighed.floor_of = read_trace_index(from, history.size() + 1);
+    weighed.doubts.resize(from.count(4 + 1 + 1, "doubts"));
+    for (Doubt& doubt : weighed.doubts) doubt = read_doubt(from, history.size());
+  }
+  WeighedCells all(*model.task, sensing, model.options.cells);
+  if (!all.restore(std::move(cells), history)) from.fail("weighed cells", "none that is possible", "at least one");
+  return all;
+}
+
 void write_trace(ByteWriter& to, const Trace& trace) {
   to.u64(trace.action_id);
   to.u32(static_cast<std::uint32_t>(trace.kind));
@@ -159,7 +221,7 @@ void write_trace(ByteWriter& to, const Trace& trace) {
   to.u8(trace.doubted ? 1 : 0);
   to.u64(trace.outcome);
   to.u64(trace.touch);
-  to.f64(trace.slack);
+  for (const double value : {trace.slack, trace.travel, trace.error}) to.f64(value);
   action::write_path(to, trace.path);
 }
 
@@ -171,12 +233,14 @@ Trace read_trace(ByteReader& from, const Task& task) {
   trace.doubted = from.flag("doubt of an observation");
   trace.outcome = static_cast<std::size_t>(from.u64("outcome of an observation"));
   trace.touch = static_cast<std::size_t>(from.u64("touch of an observation"));
-  trace.slack = from.finite("slack of an observation");
+  for (double* value : {&trace.slack, &trace.travel, &trace.error}) {
+    *value = from.finite("slack of an observation");
+    if (*value < 0.0) from.fail("slack of an observation", std::to_string(*value), "not less than 0");
+  }
   trace.path = action::read_path(from, task.scene().robot->dof(), trace.contact ? 2 : 1, "path of an observation");
   if (trace.contact ? trace.touch >= trace.path.size() : trace.touch != trace.path.size())
     from.fail("touch of an observation", std::to_string(trace.touch),
               (trace.contact ? "less than " : "") + std::to_string(trace.path.size()));
-  if (trace.slack < 0.0) from.fail("slack of an observation", std::to_string(trace.slack), "not less than 0");
   trace.bodies = BodyPath(task.bodies(), trace.path);
   return trace;
 }
@@ -192,7 +256,10 @@ std::vector<std::uint8_t> Belief::save() const {
   to.u64(history_.size());
   for (const Trace& trace : history_) write_trace(to, trace);
   to.u8(cells_ ? 1 : 0);
-  if (cells_)
+  to.u8(weighed_ ? 1 : 0);
+  if (weighed_)
+    write_weighed(to, *weighed_);
+  else if (cells_)
     write_cells(to, *cells_);
   else
     write_voxels(to, *voxels_);
@@ -211,12 +278,17 @@ Belief Belief::restore(std::shared_ptr<const Model> model, const std::uint8_t* b
   belief.q_ = action::read_joints(from, task.scene().robot->dof(), "configuration");
   belief.health_ = from.flag("health") ? Health::contradicted : Health::good;
   belief.is_goal_ = from.flag("goal");
-  const std::size_t observations = from.count(8 + 4 + 2 + 8 + 8 + 8 + 8, "observations");
+  const std::size_t observations = from.count(8 + 4 + 2 + 8 + 8 + 3 * 8 + 8, "observations");
   for (std::size_t i = 0; i < observations; ++i) belief.history_.push_back(read_trace(from, task));
   const bool in_pose_phase = from.flag("phase");
   if (!in_pose_phase && belief.model_->options.kind == Kind::particles)
     from.fail("phase", "voxels", "poses, the belief being of particles");
-  if (in_pose_phase)
+  const bool weighs = from.flag("weighed cells");
+  if (weighs && !in_pose_phase) from.fail("weighed cells", "some", "none, the phase being that of voxels");
+  if (weighs) {
+    belief.weighed_.emplace(read_weighed(from, belief.model(), belief.history_));
+    belief.cells_ = CellBelief::weighed(task, belief.model_->options.cells, belief.weighed_->cells());
+  } else if (in_pose_phase)
     belief.cells_.emplace(read_cells(from, belief.model()));
   else
     belief.voxels_.emplace(read_voxels(from, belief.model_->voxels));

@@ -12,17 +12,19 @@ namespace {
 using support::Error;
 using support::Status;
 
-constexpr double stops_per_waypoint = 8.0;  // that can be told apart
-constexpr std::size_t few_cells = 400;      // enough to tell what an observation left out would leave possible
-constexpr std::size_t few_at_first = 1u << 16;
+constexpr double sure = 0.99;               // of the weight, where observations may err
+constexpr double prospect = 0.001;          // of the weight of cells, for parts to be asked
+constexpr std::size_t parts_weighed = 200;  // whether they are seated
+constexpr double weighed_radius = 0.0008;   // m, of those
+/// Of a robot that was said not to err, and did.
+constexpr double suspected_rate = 0.02;     // share of contacts that are missed, or felt where there is none
+constexpr double suspected_travel = 0.002;  // m that it goes on after a contact
+constexpr double suspected_error = 0.0001;  // m by which its encoders may be off
+
 constexpr std::size_t parts_asked = 400;     // whether they are seated
 constexpr std::size_t tests_per_cell = 100;  // of parts when cells are looked into, for each cell there is room for
 
-/// How unlikely it is to be stopped just there by a contact that is none, in bits: anywhere else on the way would have
-/// been as likely. A contact that is missed has no such choice.
-double surprise(const Trace& trace) {
-  return trace.contact ? std::log2(stops_per_waypoint * static_cast<double>(trace.path.size())) : 0.0;
-}
+bool errs(const action::Sensing& sensing) { return sensing.missed_contacts > 0.0 || sensing.false_contacts > 0.0; }
 
 }  // namespace
 
@@ -35,7 +37,7 @@ Model::Model(std::shared_ptr<const Task> t, const Options& o)
 Belief::Belief(std::shared_ptr<const Model> model, const JointVector& q) : model_(std::move(model)) {
   check_configuration(q, "q");
   q_ = q;
-  learn_anew(model_->options.cells);
+  learn_anew();
   is_goal_ = is_seated();
 }
 
@@ -68,96 +70,69 @@ void Belief::step(const Action& action, const Observation& observation) {
   next.q_ = action.path[stop.last_free];
   if (!observation.contact && stop.segment > stop.last_free) next.q_ = observation.q;
   next.history_.push_back(trace_of(task(), action, observation, stop));
-  if (!next.learn({&next.history_.back()}, model_->options.cells)) next.doubt();
+  if (next.weighed_ || !next.learn({&next.history_.back()})) next.weigh();
   next.look_closer();
   next.is_goal_ = next.is_seated() || next.prove_seated();
   *this = std::move(next);
 }
 
-/// From the prior and the history.
-bool Belief::learn_anew(const CellOptions& options) {
-  cells_.reset();
-  voxels_.reset();
+/// From the prior.
+void Belief::learn_anew() {
+  if (errs(task().options().sensing)) return weigh();
   if (model_->options.kind == Kind::hierarchical)
     voxels_.emplace(model_->voxels);
   else
-    cells_.emplace(task(), options);
-  return learn(believed(history_), options);
+    cells_.emplace(task(), model_->options.cells);
+  learn({});
 }
 
 /// Takes in traces, and hands over once |PO| <= delta. False if nothing is left then.
-bool Belief::learn(const std::vector<const Trace*>& traces, const CellOptions& options) {
+bool Belief::learn(const std::vector<const Trace*>& traces) {
   if (cells_)
     return cells_->update(task(), traces) &&
            cells_->refine(task(), history_, [this](const CellBelief&) { return is_seated(); });
   for (const Trace* trace : traces) voxels_->update(task(), *trace);
   const std::size_t left = voxels_->possibly_occupied().count();
-  return left > 0 && (left > model_->options.delta || hand_over(options));
+  return left > 0 && (left > model_->options.delta || hand_over());
 }
 
 /// The cells whose target may lie inside PO and that may have given every observation take over.
-bool Belief::hand_over(const CellOptions& options) {
-  cells_.emplace(task(), options);
+bool Belief::hand_over() {
+  cells_.emplace(task(), model_->options.cells);
   const auto outside = [this](const Pose& pose, double radius) { return voxels_->excludes(pose, radius); };
   const bool possible = cells_->update(task(), believed(history_), outside) && cells_->refine(task(), history_);
   voxels_.reset();
   return possible;
 }
 
-/// The belief with these traces doubted, and no others; not learnt anew yet.
-Belief Belief::doubting(const std::vector<std::size_t>& traces) const {
-  Belief other = *this;
-  for (Trace& trace : other.history_) trace.doubted = false;
-  for (const std::size_t trace : traces) other.history_[trace].doubted = true;
-  return other;
+/// Takes in what the history has beyond what was weighed.
+void Belief::weigh() {
+  if (!weighed_ && errs(task().options().sensing))
+    weighed_.emplace(task(), task().options().sensing, model_->options.cells);
+  else if (weighed_ && weighed_->sensing() != task().options().sensing)
+    history_.back() = retraced(task(), history_.back(), weighed_->sensing());
+  if (!weighed_ || !weighed_->update(task(), history_)) suspect();
+  for (Trace& trace : history_) trace.doubted = false;
+  for (const std::size_t trace : weighed_->doubted()) {
+    history_[trace].doubted = true;
+    health_ = Health::contradicted;
+  }
+  voxels_.reset();
+  cells_ = CellBelief::weighed(task(), model_->options.cells, weighed_->cells());
 }
 
-/// Of some ways to explain the history, each by traces to doubt, the likeliest: the one that leaves most possible, less
-/// its surprise. Tried by few cells first.
-std::optional<Belief> Belief::best_explanation(const std::vector<std::vector<std::size_t>>& ways) const {
-  CellOptions few = model_->options.cells;
-  few.most = std::min(few.most, few_cells);
-  few.most_at_first = std::min(few.most_at_first, few_at_first);
-  std::vector<std::pair<double, std::size_t>> found;
-  for (std::size_t i = 0; i < ways.size(); ++i)
-    if (Belief rough = doubting(ways[i]); rough.learn_anew(few)) {
-      double likely = rough.summary().bits;
-      for (const std::size_t trace : ways[i]) likely -= surprise(history_[trace]);
-      found.emplace_back(-likely, i);
-    }
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [bits, i] : found)
-    if (Belief whole = doubting(ways[i]); whole.learn_anew(model_->options.cells)) return whole;
-  return std::nullopt;
-}
-
-/// The history contradicts itself: as few of its traces are doubted as explain it. First one alone; two in a row, as
-/// after a missed contact, when the next motion sets out from inside the target, or one beside a single one doubted so
-/// far; one beside several; and then more and more of the last, until what is left makes sense.
-void Belief::doubt() {
+/// The history can't have been without errors, or without more of them than were told: all of it is weighed, from the
+/// prior on, as if the robot were a poor one.
+void Belief::suspect() {
   health_ = Health::contradicted;
-  std::vector<std::size_t> so_far;
-  for (std::size_t i = 0; i < history_.size(); ++i)
-    if (history_[i].doubted) so_far.push_back(i);
-  std::vector<std::vector<std::size_t>> ones, pairs, more;
-  for (std::size_t i = history_.size(); i-- > 0;) {
-    ones.push_back({i});
-    if (i + 1 < history_.size()) pairs.push_back({i, i + 1});
-    if (so_far.empty() || history_[i].doubted) continue;
-    (so_far.size() == 1 ? pairs : more).emplace_back(so_far).push_back(i);
-  }
-  for (const auto& ways : {ones, pairs, more})
-    if (auto best = best_explanation(ways)) {
-      *this = std::move(*best);
-      return;
-    }
-  for (std::vector<std::size_t> last = so_far; last.size() < so_far.size() + history_.size();) {
-    last.push_back(history_.size() - 1 - (last.size() - so_far.size()));
-    if (auto best = best_explanation({last})) {
-      *this = std::move(*best);
-      return;
-    }
-  }
+  action::Sensing sensing = task().options().sensing;
+  sensing.missed_contacts = std::max(sensing.missed_contacts, suspected_rate);
+  sensing.false_contacts = std::max(sensing.false_contacts, suspected_rate);
+  sensing.stopping_distance = std::max(sensing.stopping_distance, suspected_travel);
+  sensing.encoder_error = std::max(sensing.encoder_error, suspected_error);
+  for (Trace& trace : history_) trace = retraced(task(), trace, sensing);
+  weighed_.emplace(task(), sensing, model_->options.cells);
+  weighed_->update(task(), history_);
 }
 
 JointPath Belief::way_back() const {
@@ -173,7 +148,7 @@ JointPath Belief::way_back() const {
 /// Goes on to cells of a millimetre or so where there is no room for all that are in between. Coarse ones can't be told
 /// from what touches them: most of them are empty.
 void Belief::look_closer() {
-  if (!cells_ || cells_->grid() || cells_->coarsest() <= part_radius) return;
+  if (!cells_ || weighed_ || cells_->grid() || cells_->coarsest() <= part_radius) return;
   const std::size_t most_tests = tests_per_cell * model_->options.cells.most;
   support::Rng rng(fingerprint(history_, history_.size()));
   if (cells_->estimated_tests(task(), history_, part_radius, rng) > static_cast<double>(most_tests)) return;
@@ -188,15 +163,33 @@ bool Belief::is_seated(const Pose& base_from_tool, const Cell& cell) const {
 }
 
 bool Belief::is_seated() const {
+  if (weighed_) return is_likely_seated();
   if (!cells_ || (!history_.empty() && history_.back().contact)) return false;
   const Pose base_from_tool = task().base_from_tool(q_);
   return cells_->all_of([&](const Cell& cell) { return is_seated(base_from_tool, cell); });
 }
 
+/// Of almost all that the likelier explanations leave possible, as far as parts drawn by weight tell.
+bool Belief::is_likely_seated() const {
+  if (history_.empty() || history_.back().contact) return false;
+  const Pose base_from_tool = task().base_from_tool(q_);
+  const auto seated_at = [&](const Cell& cell) {
+    return task().scene().is_seated(base_from_tool, geometry::pose_from(cell.centre));
+  };
+  double seated = 0.0;
+  cells_->for_each([&](const Cell& cell) { seated += seated_at(cell) ? cells_->weight(cell) : 0.0; });
+  if (seated < prospect * cells_->weight()) return false;
+  support::Rng rng(fingerprint(history_, history_.size()));
+  const auto parts = weighed_->draw_parts(task(), history_, parts_weighed, weighed_radius, rng);
+  const auto count = std::count_if(parts.begin(), parts.end(),
+                                   [&](const WeighedCells::Weighed& part) { return seated_at(part.cell); });
+  return static_cast<double>(count) >= sure * static_cast<double>(parts.size());
+}
+
 /// The same where the cells are too coarse to tell. Not tried unless most of some parts of cells drawn by lot are
 /// seated.
 bool Belief::prove_seated() {
-  if (!cells_ || cells_->grid() || history_.empty() || history_.back().contact) return false;
+  if (!cells_ || weighed_ || cells_->grid() || history_.empty() || history_.back().contact) return false;
   const Pose base_from_tool = task().base_from_tool(q_);
   const auto seated = [&](const Cell& cell) { return is_seated(base_from_tool, cell); };
   support::Rng rng(fingerprint(history_, history_.size()));

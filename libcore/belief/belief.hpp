@@ -6,6 +6,7 @@
 
 #include "belief/cells.hpp"
 #include "belief/voxels.hpp"
+#include "belief/weighed_cells.hpp"
 #include "support/deadline.hpp"
 #include "support/rng.hpp"
 
@@ -58,9 +59,10 @@ class Belief {
   /// not free.
   Belief(std::shared_ptr<const Model> model, const JointVector& q);
 
-  /// Takes in one observation. The configuration becomes the last free waypoint. Where it contradicts the others the
-  /// health says so, and as few as explain it are doubted from then on (`Trace::doubted`): the one without which the
-  /// most remains possible, which need not be the last. Throws as `locate`; then nothing has changed.
+  /// Takes in one observation. The configuration becomes the last free waypoint. Where the observations contradict each
+  /// other the health says so from then on, and where no errors were told to the task some are taken to be possible:
+  /// the cells weigh how well they explain the whole history, and what the likeliest explanation takes for wrong is
+  /// doubted (`Trace::doubted`); it need not be the last. Throws as `locate`; then nothing has changed.
   void step(const Action& action, const Observation& observation);
 
   void set_configuration(const JointVector& q);
@@ -74,18 +76,22 @@ class Belief {
   Health health() const { return health_; }
   const VoxelBelief& voxels() const { return *voxels_; }  ///< phase 1 only
   const CellBelief& cells() const { return *cells_; }     ///< phase 2 only
+  /// What the cells' bits are of, once observations may err.
+  const std::optional<WeighedCells>& weighed() const { return weighed_; }
 
   /// The way by which the robot came to the present configuration, backwards: free of the target as of the rest of the
   /// world. As far as it is known without a gap; at least the configuration.
   JointPath way_back() const;
 
   /// At the present configuration every pose that may have given the history has the tool seated within tolerance, and
-  /// the last motion was not stopped by a contact. Found out by `step`, which splits cells for it without keeping the
+  /// the last motion was not stopped by a contact. Where observations may err, all but a hundredth of the weight. Found
+  /// out by `step`, which splits cells for it without keeping the
   /// parts; after `set_configuration` by the cells as they are.
   bool is_goal() const { return is_goal_; }
 
   /// Whether the belief still holds this pose: it lies in the prior, and in the voxel phase every voxel centre inside
-  /// the target there is possibly occupied; in the pose phase a cell holds it. To 1e-9 m and rad; angles modulo whole
+  /// the target there is possibly occupied; in the pose phase a cell holds it, and where observations may err one that
+  /// is not a million times less likely than the likeliest. To 1e-9 m and rad; angles modulo whole
   /// turns, and in every way in which roll, pitch and yaw describe the same rotation.
   bool contains(const Pose& base_from_target) const;
 
@@ -114,16 +120,17 @@ class Belief {
  private:
   explicit Belief(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
   void check_configuration(const JointVector& q, const char* argument) const;
-  bool learn(const std::vector<const Trace*>& traces, const CellOptions& options);
-  bool learn_anew(const CellOptions& options);
-  bool hand_over(const CellOptions& options);
-  Belief doubting(const std::vector<std::size_t>& traces) const;
-  std::optional<Belief> best_explanation(const std::vector<std::vector<std::size_t>>& ways) const;
+  bool learn(const std::vector<const Trace*>& traces);
+  void learn_anew();
+  bool hand_over();
+  void weigh();
+  void suspect();
   bool is_seated(const Pose& base_from_tool, const Cell& cell) const;
   bool is_seated() const;
+  bool is_likely_seated() const;
   bool prove_seated();
   void look_closer();
-  void doubt();
+  std::vector<Pose> draw_explained(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const;
 
   std::shared_ptr<const Model> model_;
   JointVector q_;
@@ -132,6 +139,7 @@ class Belief {
   bool is_goal_ = false;
   std::optional<VoxelBelief> voxels_;
   std::optional<CellBelief> cells_;
+  std::optional<WeighedCells> weighed_;
 };
 
 }  // namespace tactus::belief

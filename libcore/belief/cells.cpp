@@ -43,9 +43,9 @@ CellShape CellBelief::shape(const scene::Prior& prior, const CellOptions& option
 }
 
 CellBelief::CellBelief(const Task& task, const CellOptions& options)
-    : options_(options), prior_(task.scene().prior), reach_(task.target_reach()) {
-  grid_.emplace(shape(prior_, options), reach_);
-  initial_half_ = grid_->half_width();
+    : options_(options), prior_(task.scene().prior), weighs_(!prior_.guesses.empty()) {
+  grid_.emplace(shape(prior_, options), task.target_reach());
+  frame_ = {grid_->half_width(), task.target_reach()};
   list_when_few();
   weigh();
 }
@@ -72,6 +72,16 @@ CellBelief CellBelief::restored(const Task& task, const CellOptions& options, st
   return belief;
 }
 
+CellBelief CellBelief::weighed(const Task& task, const CellOptions& options, std::vector<Cell> cells) {
+  CellBelief belief(task, options);
+  for (int d = 0; d < 6; ++d) belief.frame_.half[d] = 0.5 * belief.prior_.width[d];
+  belief.grid_.reset();
+  belief.cells_ = std::move(cells);
+  belief.weighs_ = true;
+  belief.weigh();
+  return belief;
+}
+
 std::vector<Cell> CellBelief::cells() const {
   if (!grid_) return cells_;
   std::vector<Cell> all;
@@ -79,14 +89,6 @@ std::vector<Cell> CellBelief::cells() const {
   for_each([&](const Cell& cell) { all.push_back(cell); });
   return all;
 }
-
-PoseVector CellBelief::half_width(const Cell& cell) const {
-  PoseVector half = initial_half_;
-  for (int d = 0; d < 6; ++d) half[d] = std::ldexp(half[d], -cell.splits[d]);
-  return half;
-}
-
-double CellBelief::radius(const Cell& cell) const { return scene::cell_radius(half_width(cell), reach_); }
 
 double CellBelief::coarsest() const { return grid_ ? radius(Cell{}) : coarsest(cells_); }
 
@@ -96,12 +98,6 @@ double CellBelief::coarsest(const std::vector<Cell>& cells) const {
   return most;
 }
 
-double CellBelief::volume(const Cell& cell) const {
-  double product = 1.0;
-  for (const double half : half_width(cell)) product *= half > 0.0 ? 2.0 * half : 1.0;
-  return product;
-}
-
 double CellBelief::volume() const {
   if (grid_) return static_cast<double>(size()) * volume(Cell{});
   double total = 0.0;
@@ -109,12 +105,14 @@ double CellBelief::volume() const {
   return total;
 }
 
-double CellBelief::weight(const Cell& cell) const { return volume(cell) * prior_.density(cell.centre); }
+double CellBelief::weight(const Cell& cell) const {
+  return std::exp2(-cell.bits) * volume(cell) * prior_.density(cell.centre);
+}
 
 double CellBelief::weight() const { return weighed_.empty() ? volume() : weighed_.back(); }
 
 void CellBelief::weigh() {
-  if (prior_.guesses.empty()) return;
+  if (!weighs_) return;
   weighed_.assign(grid_ ? grid_->members().words().size() : cells_.size(), 0.0);
   for (std::size_t i = 0; i < cells_.size(); ++i) weighed_[i] = weight(cells_[i]);
   if (grid_)
@@ -170,23 +168,6 @@ bool CellBelief::any_coarser(const std::vector<Cell>& cells, double wanted) cons
   return std::any_of(cells.begin(), cells.end(), [&](const Cell& cell) { return radius(cell) > wanted; });
 }
 
-/// Halves the dimension along which the target's points move most.
-void CellBelief::split(const Cell& cell, std::vector<Cell>& halves) const {
-  const PoseVector half = half_width(cell);
-  int widest = 0;
-  double most = -1.0;
-  for (int d = 0; d < 6; ++d) {
-    const double moves = d < 3 ? half[d] : half[d] * reach_;
-    if (moves > most) most = moves, widest = d;
-  }
-  for (const double sign : {-0.5, 0.5}) {
-    Cell part = cell;
-    part.centre[widest] += sign * half[widest];
-    ++part.splits[widest];
-    halves.push_back(part);
-  }
-}
-
 /// Finds the cell, or the word of the grid's members and then the cell.
 Cell CellBelief::draw_weighed(support::Rng& rng) const {
   const double at = std::min(rng.uniform() * weight(), std::nextafter(weight(), 0.0));
@@ -227,10 +208,10 @@ std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::ve
   const double split_from = 0.8 * coarsest(cells);
   std::vector<Cell> candidates, kept;
   for (const Cell& cell : cells) {
-    if (radius(cell) > std::max(split_from, finest) && candidates.size() < 2 * most)
-      split(cell, candidates);
-    else
+    if (radius(cell) <= std::max(split_from, finest) || candidates.size() >= 2 * most)
       kept.push_back(cell);
+    else
+      for (const Cell& half : frame_.halves(cell)) candidates.push_back(half);
   }
   std::vector<char> is_possible(candidates.size());
   support::for_ranges(candidates.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
@@ -304,7 +285,7 @@ CellBelief::Inside CellBelief::inside(const Task& task, const std::vector<Trace>
                                       const std::function<bool(const Cell&)>& fine, std::size_t most_tests,
                                       std::vector<std::size_t>& order) const {
   Inside found;
-  std::vector<Cell> open{whole}, halves;
+  std::vector<Cell> open{whole};
   while (!open.empty()) {
     const Cell cell = open.back();
     open.pop_back();
@@ -313,10 +294,8 @@ CellBelief::Inside CellBelief::inside(const Task& task, const std::vector<Trace>
       continue;
     }
     if (!may_split(cell) || found.tests >= most_tests) return found;
-    halves.clear();
-    split(cell, halves);
-    found.tests += halves.size();
-    for (const Cell& half : halves)
+    found.tests += 2;
+    for (const Cell& half : frame_.halves(cell))
       if (may_reproduce(task, history, order, half)) open.push_back(half);
   }
   found.is_known = true;

@@ -4,17 +4,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "belief/cell.hpp"
 #include "belief/cell_tables.hpp"
 #include "belief/projection.hpp"
 
 namespace tactus::belief {
-
-/// A box of poses about a centre; each split halves one dimension.
-struct Cell {
-  PoseVector centre{};
-  std::array<std::uint8_t, 6> splits{};
-  bool operator==(const Cell& other) const = default;
-};
 
 /// Radii (m) of parts of cells: one that tells most of what touches it, and one any pose of which agrees with the
 /// history as far as planning can use.
@@ -50,12 +44,12 @@ class CellBelief {
   template <typename Test>
   bool all_of(Test&& test) const;
 
-  PoseVector half_width(const Cell& cell) const;
-  double radius(const Cell& cell) const;  ///< m that a point of the target may be off the cell's centre
-  double coarsest() const;                ///< radius of the coarsest cell, m
-  double volume(const Cell& cell) const;  ///< product of the free dimensions' widths
+  PoseVector half_width(const Cell& cell) const { return frame_.half_width(cell); }
+  double radius(const Cell& cell) const { return frame_.radius(cell); }  ///< m, as in `CellFrame`
+  double coarsest() const;                                               ///< radius of the coarsest cell, m
+  double volume(const Cell& cell) const { return frame_.volume(cell); }
   double volume() const;                  ///< of all cells
-  double weight(const Cell& cell) const;  ///< volume times the prior's density at the centre
+  double weight(const Cell& cell) const;  ///< volume times the prior's density at the centre, less its bits
   double weight() const;                  ///< of all cells
 
   /// Removes the cells that can't have given every one of some traces, or that `excludes` says so of. Returns whether
@@ -95,9 +89,11 @@ class CellBelief {
   static CellBelief restored(const Task& task, const CellOptions& options, Bitset members);
   static CellBelief restored(const Task& task, const CellOptions& options, std::vector<Cell> cells);
 
+  /// A list of cells that `WeighedCells` gave: their splits are of the prior as one cell. It is not to be updated.
+  static CellBelief weighed(const Task& task, const CellOptions& options, std::vector<Cell> cells);
+
  private:
   bool may_split(const Cell& cell) const { return radius(cell) > options_.finest_radius; }
-  void split(const Cell& cell, std::vector<Cell>& halves) const;
   double coarsest(const std::vector<Cell>& cells) const;
   bool any_coarser(const std::vector<Cell>& cells, double wanted) const;
   std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
@@ -118,11 +114,11 @@ class CellBelief {
 
   CellOptions options_;
   scene::Prior prior_;
-  double reach_ = 0.0;  ///< m from the target's origin to its farthest vertex
-  PoseVector initial_half_{};
+  CellFrame frame_;
   std::optional<CellGrid> grid_;
   std::vector<Cell> cells_;  ///< without a grid
-  /// Where the prior is not uniform: weight of the cells up to each one, or up to each word of the grid's members.
+  bool weighs_ = false;      ///< not by volume alone
+  /// Where it does: weight of the cells up to each one, or up to each word of the grid's members.
   std::vector<double> weighed_;
 };
 

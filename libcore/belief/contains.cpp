@@ -6,7 +6,8 @@
 namespace tactus::belief {
 namespace {
 
-constexpr double tolerance = 1e-9;  // m and rad
+constexpr double tolerance = 1e-9;      // m and rad
+constexpr double incredible_bits = 20;  // a millionth
 
 /// Whether every voxel centre inside the target is possibly occupied.
 bool fits(const VoxelBelief& voxels, const geometry::DistanceField& field, const Pose& base_from_target) {
@@ -30,8 +31,9 @@ bool Belief::contains(const Pose& base_from_target) const {
   if (!task().scene().prior.contains(base_from_target)) return false;
   if (!cells_) return fits(*voxels_, task().target_contact().field(), base_from_target);
   if (cells_->grid()) return cells_->grid()->holds(base_from_target, tolerance);
-  return !cells_->all_of(
-      [&](const Cell& cell) { return !scene::box_holds(cell.centre, cells_->half_width(cell), base_from_target); });
+  return !cells_->all_of([&](const Cell& cell) {
+    return cell.bits > incredible_bits || !scene::box_holds(cell.centre, cells_->half_width(cell), base_from_target);
+  });
 }
 
 }  // namespace tactus::belief

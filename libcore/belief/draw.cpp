@@ -131,7 +131,21 @@ class Draw {
 
 std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known,
                                const support::Deadline& deadline) const {
+  if (weighed_) return draw_explained(count, rng, deadline);
   return Draw(*this, count, rng, deadline).poses(known);
+}
+
+/// Of fine parts drawn by weight: exactly as the explanation of the part has it where that can be had.
+std::vector<Pose> Belief::draw_explained(std::size_t count, support::Rng& rng,
+                                         const support::Deadline& deadline) const {
+  std::vector<Pose> poses;
+  const auto parts = weighed_->draw_parts(task(), history_, count, finest_part, rng, deadline);
+  for (const WeighedCells::Weighed& part : parts) {
+    const std::vector<const Trace*> traces = WeighedCells::explained(history_, part.doubts);
+    const auto found = projected(task(), traces, part.cell.centre, least_near);
+    poses.push_back(geometry::pose_from(found ? found->pose : part.cell.centre));
+  }
+  return poses;
 }
 
 std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const {

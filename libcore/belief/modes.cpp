@@ -8,9 +8,9 @@
 namespace tactus::belief {
 namespace {
 
-using Index = std::array<int, 6>;  ///< of a cell of the first size
+using Index = std::array<int, 6>;  ///< of a box as large as the coarsest cell
 
-/// Cells of the first size that hold others, joined with their neighbours into modes.
+/// Such boxes that hold cells, joined with their neighbours into modes.
 class Neighbourhoods {
  public:
   Neighbourhoods(const scene::Prior& prior, const PoseVector& half) : prior_(prior), half_(half) {
@@ -92,14 +92,24 @@ struct Tally {
 }  // namespace
 
 std::vector<Mode> modes_of(const CellBelief& cells, const scene::Prior& prior) {
-  Neighbourhoods neighbourhoods(prior, cells.half_width(Cell{}));
-  cells.for_each([&](const Cell& cell) { neighbourhoods.add(cell); });
+  PoseVector half{};
+  double total = 0.0;
+  const auto for_each = [&](const auto& visit) {
+    cells.for_each([&](const Cell& cell) {
+      if (cell.bits <= negligible_bits) visit(cell, cells.half_width(cell), cells.weight(cell));
+    });
+  };
+  for_each([&](const Cell&, const PoseVector& widths, double weight) {
+    for (int d = 0; d < 6; ++d) half[d] = std::max(half[d], widths[d]);
+    total += weight;
+  });
+  Neighbourhoods neighbourhoods(prior, half);
+  for_each([&](const Cell& cell, const PoseVector&, double) { neighbourhoods.add(cell); });
   neighbourhoods.join();
   std::map<std::size_t, Tally> tallies;
-  cells.for_each([&](const Cell& cell) {
-    tallies[neighbourhoods.mode_of(cell)].add(cell, cells.half_width(cell), cells.weight(cell));
+  for_each([&](const Cell& cell, const PoseVector& widths, double weight) {
+    tallies[neighbourhoods.mode_of(cell)].add(cell, widths, weight);
   });
-  const double total = cells.weight();
   std::vector<Mode> modes;
   for (const auto& [leader, tally] : tallies) modes.push_back(tally.mode(total));
   std::stable_sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) { return a.mass > b.mass; });

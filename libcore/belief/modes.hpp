@@ -5,8 +5,8 @@
 
 namespace tactus::belief {
 
-/// A part of a belief that hangs together: between it and the others lies at least a cell of the first size in which
-/// the target can't be. A socket that looks alike at four rolls has four.
+/// A part of a belief that hangs together: between it and the others lies at least the width of the coarsest cell in
+/// which the target can't be, or is a thousand times less likely. A socket that looks alike at four rolls has four.
 struct Mode {
   double mass = 0.0;    ///< its share of the belief's weight; those of all modes sum to one
   PoseVector mean{};    ///< of the target's pose; angles: circular mean

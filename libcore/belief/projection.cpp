@@ -84,7 +84,7 @@ void add_touch(const Task& task, const Trace& trace, const PoseVector& v, const 
   const double deepest = std::abs((base_from_target.linear() * at_stop.gradient).dot(last_way));
   const double middle = 0.5 * std::min(deepest, task.options().stop_tolerance);
   const double depth = to_middle ? std::max(close_enough, middle) : close_enough;
-  const double wanted = std::clamp(at_stop.distance, -depth - task.options().sensing.stopping_distance, -depth);
+  const double wanted = std::clamp(at_stop.distance, -depth - trace.travel, -depth);
   if (wanted != at_stop.distance)
     demands.add(derivative(task, v, base_from_target, at_stop), wanted - at_stop.distance);
 }
@@ -101,16 +101,15 @@ void add_clearance(const Task& task, const Trace& trace, const PoseVector& v, co
   demands.add(derivative(task, v, base_from_target, deepest), clear_by - deepest.distance);
 }
 
-Demands demands_of(const Task& task, const std::vector<Trace>& history, const PoseVector& v, bool to_middle) {
+Demands demands_of(const Task& task, const std::vector<const Trace*>& history, const PoseVector& v, bool to_middle) {
   const Pose pose = geometry::pose_from(v);
   Demands demands;
-  for (const Trace& trace : history) {
-    if (trace.doubted) continue;
-    const auto hit = task.target_contact().first_within(trace.bodies, pose, 0.0, 0);
-    const bool too_early = hit && *hit < trace.touch;
-    if (trace.contact && too_early && add_delay(task, trace, pose, *hit, demands)) continue;
-    if (trace.contact) add_touch(task, trace, v, pose, to_middle, demands);
-    if (too_early) add_clearance(task, trace, v, pose, *hit, demands);
+  for (const Trace* trace : history) {
+    const auto hit = task.target_contact().first_within(trace->bodies, pose, 0.0, 0);
+    const bool too_early = hit && *hit < trace->touch;
+    if (trace->contact && too_early && add_delay(task, *trace, pose, *hit, demands)) continue;
+    if (trace->contact) add_touch(task, *trace, v, pose, to_middle, demands);
+    if (too_early) add_clearance(task, *trace, v, pose, *hit, demands);
   }
   return demands;
 }
@@ -146,7 +145,7 @@ PoseVector inside(const scene::Prior& prior, PoseVector v) {
 
 }  // namespace
 
-std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed,
+std::optional<Projection> projected(const Task& task, const std::vector<const Trace*>& history, const PoseVector& seed,
                                     double near) {
   const double lever = 0.5 * task.target_diameter();
   PoseVector at = inside(task.scene().prior, seed);
@@ -161,6 +160,11 @@ std::optional<Projection> projected(const Task& task, const std::vector<Trace>& 
     at = inside(task.scene().prior, moved(at, demands, lever));
   }
   return std::nullopt;
+}
+
+std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed,
+                                    double near) {
+  return projected(task, believed(history), seed, near);
 }
 
 }  // namespace tactus::belief

@@ -48,9 +48,12 @@ void describe_cells(const CellBelief& cells, const Task& task, Summary& summary)
       off[d] = (d < 3 ? cell.centre[d] : scene::nearest_angle(cell.centre[d], mean[d])) - mean[d];
       half[d] = cells.half_width(cell)[d];
     }
-    low = low.cwiseMin(off - half);
-    high = high.cwiseMax(off + half);
     const double weight = cells.weight(cell), share = weight / total;
+    if (weight <= 0.0) return;
+    if (cell.bits <= negligible_bits) {
+      low = low.cwiseMin(off - half);
+      high = high.cwiseMax(off + half);
+    }
     covariance += share * (off * off.transpose() + Matrix6(half.cwiseAbs2().asDiagonal()) / 3.0);
     bits -= share * std::log2(weight / cells.volume(cell));
   });

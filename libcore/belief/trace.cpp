@@ -14,7 +14,7 @@ using support::Error;
 using support::Status;
 
 constexpr double tie = 1e-9;              // rad or m: passes of one path through the same configuration
-constexpr double touch_spacing = 0.0005;  // m
+constexpr double touch_spacing = 0.0001;  // m
 constexpr int thirds = 50;                // of a search that leaves two thirds each time
 
 void check(const Task& task, const Observation& observation) {
@@ -88,8 +88,7 @@ JointVector point(const JointPath& path, const Stop& stop) {
 }
 
 /// How far before the located stop the first contact may lie.
-double uncertain(const Task& task) {
-  const action::Sensing& sensing = task.options().sensing;
+double uncertain(const Task& task, const action::Sensing& sensing) {
   return task.options().stop_tolerance + sensing.stopping_distance + 2.0 * sensing.encoder_error;
 }
 
@@ -106,22 +105,21 @@ JointVector backed_off(const Task& task, const JointVector& from, const JointVec
   return length <= back ? from : between(stop, from, back / length);
 }
 
-/// Adds a free configuration before a contact, and from there the way to the reported stop: closely where the robot may
-/// have travelled on, else the stop alone.
-void add_stop(const Task& task, const Action& action, const Observation& observation, const Stop& stop, Trace& trace) {
-  if (stop.segment == stop.last_free + 1) {
-    const JointVector free = backed_off(task, trace.path.back(), observation.q, uncertain(task));
+/// Adds a free configuration before a contact if the next waypoint is the stop, and from there the way by `rest` to the
+/// stop, which is its end: closely where the robot may have travelled on, else the stop alone.
+void add_stop(const Task& task, const action::Sensing& sensing, const JointPath& rest, Trace& trace) {
+  const JointVector& stop = rest.back();
+  if (rest.size() == 1) {
+    const JointVector free = backed_off(task, trace.path.back(), stop, uncertain(task, sensing));
     if (free != trace.path.back()) trace.path.push_back(free);
   }
   trace.touch = trace.path.size();
-  if (task.options().sensing.stopping_distance > 0.0) {
-    trace.slack = touch_spacing;
-    for (std::size_t i = stop.last_free + 1; i < stop.segment; ++i) add_closely(task, action.path[i], trace.path);
-  }
+  trace.travel = sensing.stopping_distance;
+  trace.slack = sensing.stopping_distance > 0.0 ? touch_spacing : 0.0;
   if (trace.slack > 0.0)
-    add_closely(task, observation.q, trace.path);
+    for (const JointVector& q : rest) add_closely(task, q, trace.path);
   else
-    trace.path.push_back(observation.q);
+    trace.path.push_back(stop);
 }
 
 }  // namespace
@@ -153,7 +151,8 @@ Stop locate(const Task& task, const Action& action, const Observation& observati
     return best;
   }
   best.last_free = best.segment == 0 ? 0 : best.segment - 1;
-  while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < uncertain(task)) --best.last_free;
+  while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < uncertain(task, task.options().sensing))
+    --best.last_free;
   return best;
 }
 
@@ -181,17 +180,36 @@ Trace trace_of(const Task& task, const Action& action, const Observation& observ
                       : (stop.last_free + 1 == action.path.size() ? action.path.size() : stop.last_free);
   trace.path.assign(action.path.begin(), action.path.begin() + static_cast<std::ptrdiff_t>(stop.last_free) + 1);
   trace.touch = trace.path.size();
-  if (observation.contact)
-    add_stop(task, action, observation, stop, trace);
-  else if (stop.segment > stop.last_free)
+  trace.error = task.options().sensing.encoder_error;
+  if (observation.contact) {
+    JointPath rest;
+    for (std::size_t i = stop.last_free + 1; i < stop.segment; ++i) rest.push_back(action.path[i]);
+    rest.push_back(observation.q);
+    add_stop(task, task.options().sensing, rest, trace);
+  } else if (stop.segment > stop.last_free)
     trace.path.push_back(observation.q), trace.touch = trace.path.size();
   trace.bodies = BodyPath(task.bodies(), trace.path);
   return trace;
 }
 
-bool touched(const Task& task, const Trace& trace, const Pose& base_from_target, double radius) {
+Trace retraced(const Task& task, const Trace& trace, const action::Sensing& sensing) {
+  Trace again = trace;
+  again.error = sensing.encoder_error;
+  if (!trace.contact) return again;
+  JointPath rest{trace.path.back()};
+  again.path.pop_back();
+  while (again.path.size() > 1 && bound(task, again.path.back(), rest.back()) < uncertain(task, sensing)) {
+    rest.insert(rest.begin(), again.path.back());
+    again.path.pop_back();
+  }
+  add_stop(task, sensing, rest, again);
+  again.bodies = BodyPath(task.bodies(), again.path);
+  return again;
+}
+
+bool may_touch(const Task& task, const Trace& trace, const Pose& base_from_target, double radius) {
   const contact::TargetContact& target = task.target_contact();
-  const double reach = radius + target.margin() + task.options().sensing.encoder_error + trace.slack;
+  const double reach = radius + target.margin() + trace.error + trace.slack;
   return target.first_within(trace.bodies, base_from_target, reach, trace.touch).has_value();
 }
 
@@ -199,27 +217,31 @@ bool touched(const Task& task, const Trace& trace, const Pose& base_from_target,
 bool may_be_free(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t from) {
   if (from >= trace.touch) return true;
   const contact::TargetContact& target = task.target_contact();
-  const double sound = radius + target.margin() + task.options().sensing.encoder_error;
+  const double sound = radius + target.margin() + trace.error;
   const auto first = target.first_certain_contact(trace.bodies, base_from_target, sound, from);
   return !first || *first >= trace.touch;
 }
 
 bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_target) {
-  if (trace.contact && !touched(task, trace, base_from_target, 0.0)) return false;
-  if (task.options().sensing.encoder_error > 0.0) return may_be_free(task, trace, base_from_target, 0.0, 0);
+  if (trace.contact && !may_touch(task, trace, base_from_target, 0.0)) return false;
+  if (trace.error > 0.0) return may_be_free(task, trace, base_from_target, 0.0, 0);
   const auto first = task.target_contact().first_within(trace.bodies, base_from_target, 0.0, 0);
   return !first || *first >= trace.touch;
 }
 
 bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius,
                    std::size_t from) {
-  return (!trace.contact || touched(task, trace, base_from_target, radius)) &&
+  return (!trace.contact || may_touch(task, trace, base_from_target, radius)) &&
          may_be_free(task, trace, base_from_target, radius, from);
 }
 
+bool reproduces(const Task& task, const std::vector<const Trace*>& traces, const Pose& base_from_target) {
+  return std::all_of(traces.rbegin(), traces.rend(),
+                     [&](const Trace* trace) { return reproduces(task, *trace, base_from_target); });
+}
+
 bool reproduces(const Task& task, const std::vector<Trace>& history, const Pose& base_from_target) {
-  return std::all_of(history.rbegin(), history.rend(),
-                     [&](const Trace& trace) { return trace.doubted || reproduces(task, trace, base_from_target); });
+  return reproduces(task, believed(history), base_from_target);
 }
 
 bool may_reproduce(const Task& task, const std::vector<Trace>& history, const Pose& base_from_target, double radius) {
@@ -228,8 +250,34 @@ bool may_reproduce(const Task& task, const std::vector<Trace>& history, const Po
   });
 }
 
+SetOut set_out(const Task& task, const Trace& trace, const Pose& base_from_target, double radius) {
+  const contact::TargetContact& target = task.target_contact();
+  const double sound = radius + target.margin() + trace.error;
+  SetOut found;
+  while (found.clear < trace.touch && target.within(trace.bodies, found.clear, base_from_target, sound)) ++found.clear;
+  while (found.inside < found.clear &&
+         target.first_certain_contact(trace.bodies, base_from_target, sound, found.inside) == found.inside)
+    ++found.inside;
+  return found;
+}
+
+Fit fit_free(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t from) {
+  if (from >= trace.touch) return Fit::all;
+  const contact::TargetContact& target = task.target_contact();
+  const auto first = target.first_within(trace.bodies, base_from_target, radius + target.margin(), from);
+  if (!first || *first >= trace.touch) return Fit::all;
+  return may_be_free(task, trace, base_from_target, radius, *first) ? Fit::some : Fit::none;
+}
+
+Fit fit_touch(const Task& task, const Trace& trace, const Pose& base_from_target, double radius) {
+  if (!may_touch(task, trace, base_from_target, radius)) return Fit::none;
+  const contact::TargetContact& target = task.target_contact();
+  const double sound = radius + target.margin() + trace.error;
+  return target.first_certain_contact(trace.bodies, base_from_target, sound, trace.touch) ? Fit::all : Fit::some;
+}
+
 Fit fit(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t& from) {
-  if (trace.contact && !touched(task, trace, base_from_target, radius)) return Fit::none;
+  if (trace.contact && !may_touch(task, trace, base_from_target, radius)) return Fit::none;
   if (from < trace.touch) {
     const contact::TargetContact& target = task.target_contact();
     const auto first = target.first_within(trace.bodies, base_from_target, radius + target.margin(), from);

@@ -44,6 +44,8 @@ struct Trace {
                             ///< which it stopped; the path's size without contact
   std::size_t touch = 0;    ///< free at the waypoints before this one; the path's size without contact
   double slack = 0.0;       ///< m: a contact came within this of the waypoints from `touch` on, or of one of them
+  double travel = 0.0;      ///< m that a point of the robot may have gone on after a contact
+  double error = 0.0;       ///< m by which the waypoints may put a point of it off
   bool doubted = false;     ///< it contradicts the others, and is left out: a contact that was none, for instance
   JointPath path;
   BodyPath bodies;
@@ -57,6 +59,9 @@ std::uint64_t fingerprint(const std::vector<Trace>& history, std::size_t count);
 
 Trace trace_of(const Task& task, const Action& action, const Observation& observation, const Stop& stop);
 
+/// The same of a robot that errs more than was told to the task: the touch may be farther back.
+Trace retraced(const Task& task, const Trace& trace, const action::Sensing& sensing);
+
 /// Whether a target at exactly this pose would have given the trace.
 bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_target);
 
@@ -65,12 +70,28 @@ bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_targ
 bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius,
                    std::size_t from = 0);
 
+/// The same of every one of some traces.
+bool reproduces(const Task& task, const std::vector<const Trace*>& traces, const Pose& base_from_target);
+
 /// The same of every trace of a history that is not doubted.
 bool reproduces(const Task& task, const std::vector<Trace>& history, const Pose& base_from_target);
 bool may_reproduce(const Task& task, const std::vector<Trace>& history, const Pose& base_from_target, double radius);
 
 /// Of the poses of such a set, none can have given a trace, perhaps some, or every one would have.
 enum class Fit { none, some, all };
+
+/// How many waypoints from the first one on lie in the target at every pose of such a set (errs to fewer only), and the
+/// first waypoint that is clear of it at each of them (errs to later only), up to `Trace::touch`. A robot that sets out
+/// in the target, after a contact that it missed, feels none before it was clear.
+struct SetOut {
+  std::size_t inside = 0, clear = 0;
+};
+SetOut set_out(const Task& task, const Trace& trace, const Pose& base_from_target, double radius);
+
+/// Of the poses of such a set, whether the robot was free of the target from the waypoint `from` on to where it may
+/// have touched, and whether it was in touch where it felt a contact. Err to `some` only.
+Fit fit_free(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t from);
+Fit fit_touch(const Task& task, const Trace& trace, const Pose& base_from_target, double radius);
 
 /// As `may_reproduce`; errs to `some` only. `from` is raised to what is found out: at `Trace::touch` all there is left
 /// to ask is whether they touch.

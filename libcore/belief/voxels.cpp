@@ -59,7 +59,7 @@ void VoxelBelief::update(const Task& task, const Trace& trace) {
   const std::size_t free = trace.touch;
   remove_free(swept.voxels, free == 0 ? 0 : swept.entered_by(free - 1));
   if (!trace.contact) return;
-  const double slack = task.options().contact_margin + task.options().sensing.encoder_error + trace.slack;
+  const double slack = task.options().contact_margin + trace.error + trace.slack;
   Bitset candidates(model_->grid.size());
   for (std::size_t stop = trace.touch; stop < trace.bodies.size(); ++stop)
     candidates |= contact::contact_candidates(task.bodies(), trace.bodies, stop, model_->grid, slack);

@@ -19,7 +19,7 @@ class Summary:
     """A belief in numbers; six numbers of a pose are x y z (m) roll pitch yaw (rad)."""
 
     phase: str              # "voxels" or "poses"
-    contradicted: bool      # the observations contradicted each other: some are doubted, and left out
+    contradicted: bool      # the observations contradicted each other: some are doubted
     doubted: int            # how many
     observations: int
     contacts: int
@@ -47,7 +47,7 @@ class Event:
 
     kind: str      # of the action: "move", "turn", "sweep", "poke" or "insertion"
     contact: bool
-    doubted: bool  # it contradicts the rest, and is left out
+    doubted: bool  # the likeliest explanation of all has it wrong
     q: np.ndarray  # where the robot stopped (dof), rad or m
 
 
