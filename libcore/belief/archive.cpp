@@ -13,7 +13,7 @@ namespace {
 using support::ByteReader;
 using support::ByteWriter;
 
-constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 5};
+constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 6};
 constexpr std::uint8_t most_splits = 60;  // of one dimension: far below any use
 
 /// A running hash of whatever a saved belief makes sense with only.
@@ -253,6 +253,7 @@ std::vector<std::uint8_t> Belief::save() const {
   action::write_joints(to, q_);
   to.u8(static_cast<std::uint8_t>(health_));
   to.u8(is_goal_ ? 1 : 0);
+  to.u32(standstill_);
   to.u64(history_.size());
   for (const Trace& trace : history_) write_trace(to, trace);
   to.u8(cells_ ? 1 : 0);
@@ -278,6 +279,7 @@ Belief Belief::restore(std::shared_ptr<const Model> model, const std::uint8_t* b
   belief.q_ = action::read_joints(from, task.scene().robot->dof(), "configuration");
   belief.health_ = from.flag("health") ? Health::contradicted : Health::good;
   belief.is_goal_ = from.flag("goal");
+  belief.standstill_ = from.u32("observations that told nothing");
   const std::size_t observations = from.count(8 + 4 + 2 + 8 + 8 + 3 * 8 + 8, "observations");
   for (std::size_t i = 0; i < observations; ++i) belief.history_.push_back(read_trace(from, task));
   const bool in_pose_phase = from.flag("phase");

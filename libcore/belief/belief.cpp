@@ -23,6 +23,9 @@ constexpr double suspected_error = 0.0001;  // m by which its encoders may be of
 
 constexpr std::size_t parts_asked = 400;     // whether they are seated
 constexpr std::size_t tests_per_cell = 100;  // of parts when cells are looked into, for each cell there is room for
+constexpr std::size_t crowded = 5;           // cells for each there is room for: no more are looked into
+constexpr double hardly_less = 0.97;         // of the weight, left by an observation that told next to nothing
+constexpr std::uint32_t patience = 3;        // such observations in a row
 
 bool errs(const action::Sensing& sensing) { return sensing.missed_contacts > 0.0 || sensing.false_contacts > 0.0; }
 
@@ -70,8 +73,7 @@ void Belief::step(const Action& action, const Observation& observation) {
   next.q_ = action.path[stop.last_free];
   if (!observation.contact && stop.segment > stop.last_free) next.q_ = observation.q;
   next.history_.push_back(trace_of(task(), action, observation, stop));
-  if (next.weighed_ || !next.learn({&next.history_.back()})) next.weigh();
-  next.look_closer();
+  if (next.weighed_ || !next.learn({&next.history_.back()}) || !next.look_closer(*this)) next.weigh();
   next.is_goal_ = next.is_seated() || next.prove_seated();
   *this = std::move(next);
 }
@@ -140,21 +142,39 @@ JointPath Belief::way_back() const {
   for (auto trace = history_.rbegin(); trace != history_.rend(); ++trace) {
     const auto here = std::find(trace->path.rbegin(), trace->path.rend(), way.back());
     if (here == trace->path.rend()) break;
-    way.insert(way.end(), here + 1, trace->path.rend());
+    for (auto waypoint = here + 1; waypoint != trace->path.rend(); ++waypoint) {
+      way.erase(std::find(way.begin(), way.end(), *waypoint), way.end());
+      way.push_back(*waypoint);
+    }
   }
   return way;
 }
 
-/// Goes on to cells of a millimetre or so where there is no room for all that are in between. Coarse ones can't be told
-/// from what touches them: most of them are empty.
-void Belief::look_closer() {
-  if (!cells_ || weighed_ || cells_->grid() || cells_->coarsest() <= part_radius) return;
-  const std::size_t most_tests = tests_per_cell * model_->options.cells.most;
+/// Goes on to cells of a millimetre or so where there is no room for all that are in between: coarse ones can't be told
+/// from what touches them, and most of them are empty. To finer ones, and from a grid too, where the observations no
+/// longer tell anything, as is the case where they contradict each other more subtly than cells can tell. False if
+/// nothing is left.
+bool Belief::look_closer(const Belief& before) {
+  if (!cells_) return true;
+  standstill_ = before.cells_ && cells_->weight() > hardly_less * before.cells_->weight() ? standstill_ + 1 : 0;
+  const bool is_stuck = standstill_ >= patience;
+  Looked looked = is_stuck ? look_closer(fine_radius) : Looked::gave_up;
+  if (looked == Looked::gave_up && (is_stuck || !cells_->grid())) looked = look_closer(part_radius);
+  return looked != Looked::none;
+}
+
+/// Unless that takes too long.
+Looked Belief::look_closer(double radius) {
+  const std::size_t room = model_->options.cells.most, most_tests = tests_per_cell * room;
+  if (cells_->coarsest() <= radius || cells_->size() > crowded * room) return Looked::gave_up;
   support::Rng rng(fingerprint(history_, history_.size()));
-  if (cells_->estimated_tests(task(), history_, part_radius, rng) > static_cast<double>(most_tests)) return;
-  const auto fine = [this](const Cell& cell) { return cells_->radius(cell) <= part_radius; };
-  if (!cells_->look_inside(task(), history_, fine, 2 * most_tests)) return;
-  cells_->refine(task(), history_, [this](const CellBelief&) { return is_seated(); });
+  if (cells_->estimated_tests(task(), history_, radius, rng) > static_cast<double>(most_tests)) return Looked::gave_up;
+  const auto fine = [&](const Cell& cell) { return cells_->radius(cell) <= radius; };
+  const Looked looked = cells_->look_inside(task(), history_, fine, 2 * most_tests);
+  if (looked != Looked::all) return looked;
+  standstill_ = 0;
+  const bool possible = cells_->refine(task(), history_, [this](const CellBelief&) { return is_seated(); });
+  return possible ? Looked::all : Looked::none;
 }
 
 /// Whether the tool is seated at every pose of a cell.
@@ -195,7 +215,7 @@ bool Belief::prove_seated() {
   support::Rng rng(fingerprint(history_, history_.size()));
   const std::vector<Cell> parts = cells_->draw_parts(task(), history_, parts_asked, fine_radius, rng);
   if (2 * static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(), seated)) <= parts.size()) return false;
-  return cells_->look_inside(task(), history_, seated, tests_per_cell * model_->options.cells.most);
+  return cells_->look_inside(task(), history_, seated, tests_per_cell * model_->options.cells.most) == Looked::all;
 }
 
 }  // namespace tactus::belief

@@ -80,7 +80,7 @@ class Belief {
   const std::optional<WeighedCells>& weighed() const { return weighed_; }
 
   /// The way by which the robot came to the present configuration, backwards: free of the target as of the rest of the
-  /// world. As far as it is known without a gap; at least the configuration.
+  /// world. As far as it is known without a gap, and without its loops; at least the configuration.
   JointPath way_back() const;
 
   /// At the present configuration every pose that may have given the history has the tool seated within tolerance, and
@@ -129,7 +129,8 @@ class Belief {
   bool is_seated() const;
   bool is_likely_seated() const;
   bool prove_seated();
-  void look_closer();
+  bool look_closer(const Belief& before);
+  Looked look_closer(double radius);
   std::vector<Pose> draw_explained(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const;
 
   std::shared_ptr<const Model> model_;
@@ -137,6 +138,7 @@ class Belief {
   std::vector<Trace> history_;
   Health health_ = Health::good;
   bool is_goal_ = false;
+  std::uint32_t standstill_ = 0;  ///< observations in a row that told next to nothing
   std::optional<VoxelBelief> voxels_;
   std::optional<CellBelief> cells_;
   std::optional<WeighedCells> weighed_;

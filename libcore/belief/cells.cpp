@@ -302,36 +302,39 @@ CellBelief::Inside CellBelief::inside(const Task& task, const std::vector<Trace>
   return found;
 }
 
-bool CellBelief::look_inside(const Task& task, const std::vector<Trace>& history,
-                             const std::function<bool(const Cell&)>& fine, std::size_t most_tests) {
-  if (grid_) return false;
-  const std::vector<std::size_t> from_all_over = strided(cells_.size());
-  std::vector<Inside> found(cells_.size());
-  for (std::size_t first = 0, last = 0; first < cells_.size(); first = last) {
-    last = std::min(cells_.size(), 2 * first + first_round);
+Looked CellBelief::look_inside(const Task& task, const std::vector<Trace>& history,
+                               const std::function<bool(const Cell&)>& fine, std::size_t most_tests) {
+  if (size() > parts_per_cell * options_.most) return Looked::gave_up;
+  const std::vector<Cell> wholes = cells();
+  const std::vector<std::size_t> from_all_over = strided(wholes.size());
+  std::vector<Inside> found(wholes.size());
+  for (std::size_t first = 0, last = 0; first < wholes.size(); first = last) {
+    last = std::min(wholes.size(), 2 * first + first_round);
     support::for_ranges(last - first, options_.threads, [&](std::size_t begin, std::size_t end) {
       std::vector<std::size_t> order = latest_first(history);
       for (std::size_t i = first + begin; i < first + end; ++i) {
         const std::size_t cell = from_all_over[i];
-        found[cell] = inside(task, history, cells_[cell], fine, most_tests, order);
+        found[cell] = inside(task, history, wholes[cell], fine, most_tests, order);
         if (!found[cell].is_known) return;
       }
     });
     for (std::size_t i = first; i < last; ++i) {
       const Inside& cell = found[from_all_over[i]];
-      if (!cell.is_known || cell.tests > most_tests) return false;
+      if (!cell.is_known || cell.tests > most_tests) return Looked::gave_up;
       most_tests -= cell.tests;
     }
   }
-  return replace(found);
+  if (std::all_of(found.begin(), found.end(), [](const Inside& cell) { return cell.parts.empty(); }))
+    return Looked::none;
+  replace(wholes, found);
+  return Looked::all;
 }
 
-/// By their parts, those with the fewest first, as long as there is room; false (and unchanged) if there are none.
-bool CellBelief::replace(const std::vector<Inside>& found) {
+/// By their parts, those with the fewest first, as long as there is room.
+void CellBelief::replace(const std::vector<Cell>& wholes, const std::vector<Inside>& found) {
   std::vector<std::size_t> fewest_first;
-  for (std::size_t i = 0; i < cells_.size(); ++i)
+  for (std::size_t i = 0; i < wholes.size(); ++i)
     if (!found[i].parts.empty()) fewest_first.push_back(i);
-  if (fewest_first.empty()) return false;
   std::stable_sort(fewest_first.begin(), fewest_first.end(),
                    [&](std::size_t a, std::size_t b) { return found[a].parts.size() < found[b].parts.size(); });
   std::vector<Cell> kept;
@@ -341,11 +344,11 @@ bool CellBelief::replace(const std::vector<Inside>& found) {
     if (kept.size() + found[i].parts.size() + whole <= parts_per_cell * options_.most)
       kept.insert(kept.end(), found[i].parts.begin(), found[i].parts.end());
     else
-      kept.push_back(cells_[i]);
+      kept.push_back(wholes[i]);
   }
   cells_ = std::move(kept);
+  grid_.reset();
   weigh();
-  return true;
 }
 
 double CellBelief::estimated_tests(const Task& task, const std::vector<Trace>& history, double wanted,

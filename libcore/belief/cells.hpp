@@ -24,6 +24,9 @@ struct CellOptions {
   int threads = 1;  ///< that test cells; 0: as many as the machine has. The answers are the same
 };
 
+/// What looking into cells came to.
+enum class Looked { gave_up, none, all };
+
 /// Phase 2: a set of cells that covers every pose that may have given the observations. A cell goes only when no pose
 /// in it can have. As long as there are many they are those of a grid; then a list, in which they are split. They weigh
 /// what the prior says: that counts where cells are drawn or described, and removes none. A value.
@@ -63,11 +66,12 @@ class CellBelief {
 
   /// Looks into the cells, depth first, so that it takes no more room than what is found: they are split until they are
   /// `fine`, and the parts tested against the whole history. Cells of which nothing is left go, the others are replaced
-  /// by their parts as long as there is room. Whether that succeeded, that is, whether every pose that may have given
-  /// the history lies in a part that is fine; if not (one of the finest is not fine, or some `most_tests` were made)
-  /// nothing is changed. So it proves whatever can be asked of a cell.
-  bool look_inside(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& fine,
-                   std::size_t most_tests);
+  /// by their parts as long as there is room. `all`: every pose that may have given the history lies in a part that is
+  /// fine, which proves whatever can be asked of a cell. `none`: no pose may have given it. Unchanged unless `all`,
+  /// also where it had to give up: one of the finest is not fine, some `most_tests` were made, or the cells are too
+  /// many.
+  Looked look_inside(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& fine,
+                     std::size_t most_tests);
 
   /// How many tests it would take to look for parts of at most `radius` (m), by what some cells take.
   double estimated_tests(const Task& task, const std::vector<Trace>& history, double radius, support::Rng& rng) const;
@@ -104,7 +108,7 @@ class CellBelief {
   Inside inside(const Task& task, const std::vector<Trace>& history, const Cell& whole,
                 const std::function<bool(const Cell&)>& fine, std::size_t most_tests,
                 std::vector<std::size_t>& order) const;
-  bool replace(const std::vector<Inside>& found);
+  void replace(const std::vector<Cell>& wholes, const std::vector<Inside>& found);
   std::vector<Cell> by_lot(std::size_t count, support::Rng& rng) const;
   Cell any_cell(support::Rng& rng) const;
   std::vector<Cell> thinned(const std::vector<Cell>& cells, std::size_t count, support::Rng& rng) const;

@@ -10,6 +10,7 @@ namespace {
 using belief::Belief;
 using belief::Cell;
 using belief::CellBelief;
+using belief::Looked;
 using support::Rng;
 
 constexpr std::size_t many_tests = 200000;
@@ -47,8 +48,8 @@ struct Below {
 
 bool prove(CellBelief& cells, const Belief& belief, const Below& below, std::size_t most_tests = many_tests) {
   const CellBelief as_before = cells;
-  return cells.look_inside(
-      task(), belief.history(), [&](const Cell& cell) { return below(as_before, cell); }, most_tests);
+  const auto is_below = [&](const Cell& cell) { return below(as_before, cell); };
+  return cells.look_inside(task(), belief.history(), is_below, most_tests) == Looked::all;
 }
 
 TEST(Proof, HoldsForEveryPoseThatReproducesTheHistory) {
@@ -140,9 +141,8 @@ TEST(LookInside, TakesAboutAsManyTestsAsEstimated) {
     const double estimate = coarse.estimated_tests(task(), history, radius, rng);
     const auto succeeds_with = [&](double tests) {
       CellBelief cells = coarse;
-      return cells.look_inside(
-          task(), history, [&](const Cell& cell) { return coarse.radius(cell) <= radius; },
-          static_cast<std::size_t>(tests));
+      const auto fine = [&](const Cell& cell) { return coarse.radius(cell) <= radius; };
+      return cells.look_inside(task(), history, fine, static_cast<std::size_t>(tests)) == Looked::all;
     };
     EXPECT_TRUE(succeeds_with(2.0 * estimate)) << "seed " << seed << ", " << estimate;
     EXPECT_FALSE(succeeds_with(estimate / 2.0)) << "seed " << seed << ", " << estimate;
@@ -158,13 +158,64 @@ TEST(LookInside, ReplacesCellsByTheirPartsAndKeepsTheTruthInOne) {
     if (cells.grid()) continue;
     const double volume = cells.volume();
     const auto fine = [&](const Cell& cell) { return cells.radius(cell) <= radius; };
-    if (!cells.look_inside(task(), episode.belief.history(), fine, many_tests)) continue;
+    if (cells.look_inside(task(), episode.belief.history(), fine, many_tests) != Looked::all) continue;
     EXPECT_LE(cells.volume(), volume * (1.0 + 1e-9));
     EXPECT_LE(cells.size(), 2000u);
     EXPECT_FALSE(cells.all_of([&](const Cell& cell) {
       return !scene::box_holds(cell.centre, cells.half_width(cell), geometry::pose_from(episode.truth), 1e-9);
     }));
   }
+}
+
+/// Of cells that could not be told from possible ones.
+TEST(LookInside, FindsNothingWhereNoPoseCanHaveGivenTheHistory) {
+  constexpr double radius = 0.0003;
+  Rng rng(7);
+  int found_none = 0;
+  for (const std::uint64_t seed : {81u, 82u, 83u, 84u}) {
+    Episode episode(model(), seed);
+    for (int i = 0; i < 6; ++i) episode.step();
+    const std::vector<PoseVector> possible = poses_of(episode.belief, 100, rng);
+    for (int i = 0; i < 20; ++i) {
+      const Cell cell = episode.belief.cells().draw_cell(rng);
+      CellBelief alone = CellBelief::restored(task(), model()->options.cells, std::vector<Cell>{cell});
+      const auto fine = [&](const Cell& part) { return alone.radius(part) <= radius; };
+      if (alone.look_inside(task(), episode.belief.history(), fine, many_tests) != Looked::none) continue;
+      ++found_none;
+      EXPECT_EQ(alone.cells(), std::vector<Cell>{cell});
+      for (const PoseVector& pose : possible)
+        EXPECT_FALSE(scene::box_holds(cell.centre, alone.half_width(cell), geometry::pose_from(pose), 0.0));
+    }
+  }
+  EXPECT_GE(found_none, 10);
+}
+
+/// A grid of so few cells is never split otherwise: the belief would stay as coarse as it is.
+TEST(LookInside, IsWhatABeliefDoesOnceObservationsTellNothingMore) {
+  int looked = 0;
+  for (std::uint64_t seed = 91; seed <= 94; ++seed) {
+    Episode episode(model(), seed);
+    while (episode.belief.history().empty() || !episode.belief.history().back().contact) episode.step();
+    const double coarsest = episode.belief.cells().coarsest();
+    const action::Action action =
+        insertion_at(task(), episode.library, episode.belief.configuration(), geometry::pose_from(episode.truth));
+    const belief::Observation seen = episode.world.execute(action);
+    const Belief once = [&] {
+      Belief belief = episode.belief;
+      belief.step(action, seen);
+      return belief;
+    }();
+    Belief often = once;
+    for (int i = 0; i < 4; ++i) {
+      often.set_configuration(action.path.front());
+      often.step(action, seen);
+      EXPECT_TRUE(often.contains(geometry::pose_from(episode.truth)));
+      EXPECT_EQ(often.health(), belief::Health::good);
+    }
+    EXPECT_LE(often.cells().volume(), once.cells().volume());
+    looked += often.cells().coarsest() < coarsest && often.cells().volume() < 0.5 * once.cells().volume() ? 1 : 0;
+  }
+  EXPECT_GE(looked, 2);
 }
 
 /// Cells too coarse to tell: with the pin in the hole the belief knows it all the same.

@@ -54,6 +54,22 @@ TEST(WayBack, LeadsFromTheConfigurationToTheStartFreeOfTheTarget) {
   }
 }
 
+/// A robot that goes back the way it came again and again would go twice as far each time.
+TEST(WayBack, HasNoLoops) {
+  for (const std::uint64_t seed : {11u, 12u, 13u}) {
+    Episode episode(model(), seed);
+    for (int i = 0; i < 6; ++i) {
+      episode.step();
+      JointPath way = episode.belief.way_back();
+      for (std::size_t at = 0; at < way.size(); ++at)
+        ASSERT_EQ(std::count(way.begin(), way.end(), way[at]), 1) << "seed " << seed << ", waypoint " << at;
+      const action::Action back = action_along(*model()->task, way);
+      episode.belief.step(back, episode.world.execute(back));
+    }
+    EXPECT_EQ(episode.belief.way_back().size(), 1u);
+  }
+}
+
 TEST(WayBack, EndsWhereTheRobotWasPutByHand) {
   Episode episode(model(), 5);
   for (int i = 0; i < 4; ++i) episode.step();
