@@ -85,7 +85,8 @@ TACTUS_API tactus_status tactus_action_times(const tactus_action* action, double
 /**
  * The index of the waypoint to which the robot goes back after this observation: the last one that is certainly free.
  * After a contact go back along the path to there; that is where `tactus_belief_step` takes the robot to be. Without a
- * contact it is the last waypoint that the robot passed, and the robot stays where it is.
+ * contact it is the last waypoint that the robot passed, and the robot stays where it is. Actions that are planned for a
+ * belief whose observations contradict each other have it go back farther: the robot may travel on after contacts.
  *
  * TACTUS_INVALID_ARGUMENT (a NaN, a wrong number of joints), TACTUS_STOP_OFF_PATH, TACTUS_STRUCT_SIZE.
  */

@@ -63,8 +63,9 @@ TACTUS_API void tactus_belief_destroy(tactus_belief* belief) TACTUS_NOEXCEPT;
  * doubted (it need not be the last observation).
  *
  * Some 0.1 s, the first steps of a wide prior 1 to 3 s. In five dimensions, once or twice before the tool is in, some
- * ten to forty seconds: cells are looked into there for what they hold, by up to two hundred tests for each of
- * `belief.max_cells`; `belief.threads` shortens that.
+ * ten to forty seconds, and in fewer some ten where three observations in a row told next to nothing: cells are looked
+ * into then for what they hold, by up to two hundred tests for each of `belief.max_cells`; `belief.threads` shortens
+ * that.
  *
  * TACTUS_STOP_OFF_PATH, TACTUS_INVALID_ARGUMENT (a NaN, a wrong number of joints), TACTUS_WRONG_SCENARIO,
  * TACTUS_STRUCT_SIZE.

@@ -11,7 +11,7 @@ namespace {
 using support::ByteReader;
 using support::ByteWriter;
 
-constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'A'}, 1};
+constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'A'}, 2};
 
 void write_pose(ByteWriter& to, const Pose& pose) {
   for (int column = 0; column < 4; ++column)
@@ -77,6 +77,20 @@ Kind read_kind(ByteReader& from, const char* field) {
   return static_cast<Kind>(value);
 }
 
+void write_sensing(ByteWriter& to, const Sensing& sensing) {
+  for (const double value :
+       {sensing.stopping_distance, sensing.encoder_error, sensing.missed_contacts, sensing.false_contacts})
+    to.f64(value);
+}
+
+Sensing read_sensing(ByteReader& from, const char* field) {
+  Sensing sensing;
+  for (double* value :
+       {&sensing.stopping_distance, &sensing.encoder_error, &sensing.missed_contacts, &sensing.false_contacts})
+    *value = read_amount(from, field);
+  return sensing;
+}
+
 std::vector<std::uint8_t> save(const Action& action) {
   ByteWriter to(seal);
   to.u32(static_cast<std::uint32_t>(action.path.front().size()));
@@ -86,6 +100,7 @@ std::vector<std::uint8_t> save(const Action& action) {
   to.u64(action.lead);
   for (const double value : {action.length, action.full_cost, action.expected_cost, action.contact_probability})
     to.f64(value);
+  write_sensing(to, action.sensing);
   write_pose(to, action.supposed_target);
   return to.sealed();
 }
@@ -111,6 +126,7 @@ Action restore(const Task& task, const std::uint8_t* bytes, std::size_t size) {
   action.contact_probability = read_amount(from, "contact probability");
   if (action.contact_probability > 1.0 + 1e-9)
     from.fail("contact probability", std::to_string(action.contact_probability), "at most 1");
+  action.sensing = read_sensing(from, "errors of the robot");
   action.supposed_target = read_pose(from, "supposed target");
   from.finish();
   action.id = path_id(action.path);

@@ -17,10 +17,12 @@ Action restore(const Task& task, const std::uint8_t* bytes, std::size_t size);
 
 void write_joints(support::ByteWriter& to, const JointVector& q);
 void write_path(support::ByteWriter& to, const JointPath& path);
+void write_sensing(support::ByteWriter& to, const Sensing& sensing);
 
 JointVector read_joints(support::ByteReader& from, int dof, const char* field);  ///< finite
 JointPath read_path(support::ByteReader& from, int dof, std::size_t least,
                     const char* field);  ///< of `least` (>= 1) or more waypoints
 Kind read_kind(support::ByteReader& from, const char* field);
+Sensing read_sensing(support::ByteReader& from, const char* field);
 
 }  // namespace tactus::action

@@ -34,6 +34,7 @@ Action make_action(const Task& task, Kind kind, JointPath path, std::size_t lead
   action.full_cost = task.cost(travel) + task.options().cost.action;
   action.bodies = BodyPath(task.bodies(), path);
   action.lead = lead;
+  action.sensing = task.options().sensing;
   action.path = std::move(path);
   return action;
 }

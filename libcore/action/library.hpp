@@ -23,6 +23,7 @@ struct Action {
   double full_cost = 0.0;            ///< of going all the way
   double expected_cost = 0.0;        ///< as the planner saw it
   double contact_probability = 0.0;  ///< as the planner saw it
+  Sensing sensing;                   ///< what is taken for possible of the robot, and decides where its contact may be
   Pose supposed_target = Pose::Identity();
 };
 

@@ -123,10 +123,7 @@ void write_cells(ByteWriter& to, const CellBelief& cells) {
 }
 
 void write_weighed(ByteWriter& to, const WeighedCells& cells) {
-  const action::Sensing& sensing = cells.sensing();
-  for (const double value :
-       {sensing.stopping_distance, sensing.encoder_error, sensing.missed_contacts, sensing.false_contacts})
-    to.f64(value);
+  action::write_sensing(to, cells.sensing());
   to.u64(cells.all().size());
   for (const WeighedCells::Weighed& weighed : cells.all()) {
     write_cell(to, weighed.cell);
@@ -187,18 +184,8 @@ Doubt read_doubt(ByteReader& from, std::size_t traces) {
   return {trace, static_cast<Fault>(fault), from.flag("certainty of a fault")};
 }
 
-action::Sensing read_sensing(ByteReader& from) {
-  action::Sensing sensing;
-  for (double* value :
-       {&sensing.stopping_distance, &sensing.encoder_error, &sensing.missed_contacts, &sensing.false_contacts}) {
-    *value = from.finite("errors of observations");
-    if (*value < 0.0) from.fail("errors of observations", std::to_string(*value), "not less than 0");
-  }
-  return sensing;
-}
-
 WeighedCells read_weighed(ByteReader& from, const Model& model, const std::vector<Trace>& history) {
-  const action::Sensing sensing = read_sensing(from);
+  const action::Sensing sensing = action::read_sensing(from, "errors of observations");
   std::vector<WeighedCells::Weighed> cells(from.count(6 * (8 + 1) + 8 + 4 + 8, "weighed cells"));
   if (cells.empty()) from.fail("weighed cells", "none", "at least one");
   for (WeighedCells::Weighed& weighed : cells) {

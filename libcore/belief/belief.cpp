@@ -111,7 +111,7 @@ bool Belief::hand_over() {
 void Belief::weigh() {
   if (!weighed_ && errs(task().options().sensing))
     weighed_.emplace(task(), task().options().sensing, model_->options.cells);
-  else if (weighed_ && weighed_->sensing() != task().options().sensing)
+  else if (weighed_)
     history_.back() = retraced(task(), history_.back(), weighed_->sensing());
   if (!weighed_ || !weighed_->update(task(), history_)) suspect();
   for (Trace& trace : history_) trace.doubted = false;
@@ -127,7 +127,7 @@ void Belief::weigh() {
 /// prior on, as if the robot were a poor one.
 void Belief::suspect() {
   health_ = Health::contradicted;
-  action::Sensing sensing = task().options().sensing;
+  action::Sensing sensing = this->sensing();
   sensing.missed_contacts = std::max(sensing.missed_contacts, suspected_rate);
   sensing.false_contacts = std::max(sensing.false_contacts, suspected_rate);
   sensing.stopping_distance = std::max(sensing.stopping_distance, suspected_travel);
@@ -136,6 +136,8 @@ void Belief::suspect() {
   weighed_.emplace(task(), sensing, model_->options.cells);
   weighed_->update(task(), history_);
 }
+
+const action::Sensing& Belief::sensing() const { return weighed_ ? weighed_->sensing() : task().options().sensing; }
 
 JointPath Belief::way_back() const {
   JointPath way{q_};

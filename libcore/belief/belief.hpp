@@ -78,6 +78,8 @@ class Belief {
   const CellBelief& cells() const { return *cells_; }     ///< phase 2 only
   /// What the cells' bits are of, once observations may err.
   const std::optional<WeighedCells>& weighed() const { return weighed_; }
+  /// What is taken for possible of the robot: what the task says of it, or more once it must have erred more.
+  const action::Sensing& sensing() const;
 
   /// The way by which the robot came to the present configuration, backwards: free of the target as of the rest of the
   /// world. As far as it is known without a gap, and without its loops; at least the configuration.

@@ -87,11 +87,6 @@ JointVector point(const JointPath& path, const Stop& stop) {
   return stop.segment == 0 ? path.front() : between(path[stop.segment - 1], path[stop.segment], stop.fraction);
 }
 
-/// How far before the located stop the first contact may lie.
-double uncertain(const Task& task, const action::Sensing& sensing) {
-  return task.options().stop_tolerance + sensing.stopping_distance + 2.0 * sensing.encoder_error;
-}
-
 /// The straight way to `to`, no point of the robot moving more than `touch_spacing` at a time.
 void add_closely(const Task& task, const JointVector& to, JointPath& path) {
   const JointVector from = path.back();
@@ -110,7 +105,7 @@ JointVector backed_off(const Task& task, const JointVector& from, const JointVec
 void add_stop(const Task& task, const action::Sensing& sensing, const JointPath& rest, Trace& trace) {
   const JointVector& stop = rest.back();
   if (rest.size() == 1) {
-    const JointVector free = backed_off(task, trace.path.back(), stop, uncertain(task, sensing));
+    const JointVector free = backed_off(task, trace.path.back(), stop, stop_blur(task, sensing));
     if (free != trace.path.back()) trace.path.push_back(free);
   }
   trace.touch = trace.path.size();
@@ -124,11 +119,15 @@ void add_stop(const Task& task, const action::Sensing& sensing, const JointPath&
 
 }  // namespace
 
+double stop_blur(const Task& task, const action::Sensing& sensing) {
+  return task.options().stop_tolerance + sensing.stopping_distance + 2.0 * sensing.encoder_error;
+}
+
 Stop locate(const Task& task, const Action& action, const Observation& observation) {
   check(task, observation);
   const JointPath& path = action.path;
   const JointVector& q = observation.q;
-  const double error = task.options().sensing.encoder_error;
+  const double error = action.sensing.encoder_error;
   const double allowed = std::max({0.001, task.options().stop_tolerance, error + tie});
   const double off_end = bound(task, path.back(), q);
   if (error > 0.0 && !observation.contact && off_end <= error + tie) return {path.size() - 1, 1.0, path.size() - 1};
@@ -151,7 +150,7 @@ Stop locate(const Task& task, const Action& action, const Observation& observati
     return best;
   }
   best.last_free = best.segment == 0 ? 0 : best.segment - 1;
-  while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < uncertain(task, task.options().sensing))
+  while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < stop_blur(task, action.sensing))
     --best.last_free;
   return best;
 }
@@ -180,12 +179,12 @@ Trace trace_of(const Task& task, const Action& action, const Observation& observ
                       : (stop.last_free + 1 == action.path.size() ? action.path.size() : stop.last_free);
   trace.path.assign(action.path.begin(), action.path.begin() + static_cast<std::ptrdiff_t>(stop.last_free) + 1);
   trace.touch = trace.path.size();
-  trace.error = task.options().sensing.encoder_error;
+  trace.error = action.sensing.encoder_error;
   if (observation.contact) {
     JointPath rest;
     for (std::size_t i = stop.last_free + 1; i < stop.segment; ++i) rest.push_back(action.path[i]);
     rest.push_back(observation.q);
-    add_stop(task, task.options().sensing, rest, trace);
+    add_stop(task, action.sensing, rest, trace);
   } else if (stop.segment > stop.last_free)
     trace.path.push_back(observation.q), trace.touch = trace.path.size();
   trace.bodies = BodyPath(task.bodies(), trace.path);
@@ -195,10 +194,10 @@ Trace trace_of(const Task& task, const Action& action, const Observation& observ
 Trace retraced(const Task& task, const Trace& trace, const action::Sensing& sensing) {
   Trace again = trace;
   again.error = sensing.encoder_error;
-  if (!trace.contact) return again;
+  if (!trace.contact || trace.travel == sensing.stopping_distance) return again;
   JointPath rest{trace.path.back()};
   again.path.pop_back();
-  while (again.path.size() > 1 && bound(task, again.path.back(), rest.back()) < uncertain(task, sensing)) {
+  while (again.path.size() > 1 && bound(task, again.path.back(), rest.back()) < stop_blur(task, sensing)) {
     rest.insert(rest.begin(), again.path.back());
     again.path.pop_back();
   }

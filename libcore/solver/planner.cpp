@@ -16,6 +16,7 @@ constexpr std::uint64_t own_stream = 0x706c616e;  // apart from whatever else be
 constexpr double noticeable_bits = 0.1;
 constexpr int patience = 3;  // queries in a stage in which the belief hardly shrank
 constexpr int stages = 3;
+constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
 }  // namespace
@@ -137,7 +138,8 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
     if (standing_.stalls > 0 && standing_.stalls % patience == 0) poses_.clear();
     poses_ = belief.draw(model_->options.particles, rng_, poses_, deadline);
     start = std::make_shared<PoseProblem>(model_->task, library_, poses_, belief.summary().bits, options_.cost_per_bit,
-                                          second_value_of(options_.solver))
+                                          second_value_of(options_.solver),
+                                          belief::stop_blur(*model_->task, belief.sensing()))
                 ->start(belief.configuration());
   }
   SearchOptions search = search_options(options_);
@@ -154,6 +156,7 @@ Answer Planner::hand_out(const belief::Belief& belief, int node, std::size_t cho
   const Search& search = policy_->search;
   made.expected_cost = search.q_value(node, choice, ValueType::inadmissible);
   made.contact_probability = search.choices(node)[choice].contact_probability();
+  made.sensing = belief.sensing();
   statistics_.lower_bound = search.value(node, ValueType::admissible);
   statistics_.value = search.value(node, ValueType::inadmissible);
   policy_->node = node;
@@ -173,6 +176,17 @@ bool Planner::is_unpromising(const action::Motion& motion) const {
          (stage() == Stage::probes && motion.kind == action::Kind::insertion);
 }
 
+/// What was touched by the last observations, by which the belief hardly shrank.
+std::vector<Touch> Planner::touched_in_vain(const belief::Belief& belief) const {
+  std::vector<Touch> touches;
+  if (standing_.stalls == 0) return touches;
+  const std::vector<belief::Trace>& history = belief.history();
+  const std::size_t count = std::min(history.size(), static_cast<std::size_t>(standing_.stalls) + 1);
+  for (std::size_t i = history.size() - count; i < history.size(); ++i)
+    if (const auto touch = touch_of(history[i])) touches.push_back(*touch);
+  return touches;
+}
+
 /// The best motion at a node, made executable; the next best where the robot can't get to its start.
 Answer Planner::act(const belief::Belief& belief, int node, const support::Deadline& deadline) {
   const Search& search = policy_->search;
@@ -183,8 +197,9 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
     banned[choice] = true;
     verdicts[choice] = verdict;
   };
+  const std::vector<Touch> touches = touched_in_vain(belief);
   for (std::size_t i = 0; i < choices.size(); ++i)
-    if (is_unpromising(*choices[i].motion)) ban(i, Verdict::set_aside);
+    if (is_unpromising(*choices[i].motion) || share_alike(choices[i], touches) > certain) ban(i, Verdict::set_aside);
   if (std::find(banned.begin(), banned.end(), false) == banned.end()) std::fill(banned.begin(), banned.end(), false);
   const auto next = [&] {
     const auto rule = greedy_of(options_.solver);

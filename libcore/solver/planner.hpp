@@ -7,6 +7,7 @@
 #include "belief/belief.hpp"
 #include "solver/alternatives.hpp"
 #include "solver/solvers.hpp"
+#include "solver/touches.hpp"
 
 namespace tactus::solver {
 
@@ -56,6 +57,7 @@ class Planner {
   enum class Stage { all, anchored, probes };  ///< what is tried
   Stage stage() const;
   bool is_unpromising(const action::Motion& motion) const;
+  std::vector<Touch> touched_in_vain(const belief::Belief& belief) const;
   void plan(const belief::Belief& belief, support::Deadline& deadline);
 
   std::shared_ptr<const belief::Model> model_;
@@ -63,6 +65,7 @@ class Planner {
   std::shared_ptr<action::ActionLibrary> library_;
   support::Rng rng_;
   /// An action that left the belief and the configuration as they were is not handed out again until something changes;
+  /// nor, while the belief hardly shrinks, one that is all but certain to meet what was met without avail (`alike`);
   /// and after some queries in which the belief hardly shrank only anchored motions are, then only probes, then all
   /// again: the poses planned on promise more of small touches than the cells can take in. Begins anew with a belief
   /// that has been through something else.

@@ -112,10 +112,10 @@ class PoseState : public BeliefState {
 };
 
 PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
-                         std::vector<Pose> poses, double bits, double cost_per_bit, SecondValue second)
+                         std::vector<Pose> poses, double bits, double cost_per_bit, SecondValue second, double blur)
     : task_(std::move(task)),
       library_(std::move(library)),
-      predictions_(task_, std::move(poses)),
+      predictions_(task_, std::move(poses), blur),
       bits_(bits),
       cost_per_bit_(cost_per_bit),
       second_(second) {

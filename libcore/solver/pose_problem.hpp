@@ -14,10 +14,11 @@ namespace tactus::solver {
 /// and where each pose is first touched on each motion. One thread.
 class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
  public:
-  /// `bits`: log2 of how many tolerances the full belief spans; `cost_per_bit` in units of cost.
+  /// `bits`: log2 of how many tolerances the full belief spans; `cost_per_bit` in units of cost; `blur`: m before a
+  /// reported stop within which the contact may lie.
   PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
               std::vector<geometry::Pose> poses, double bits, double cost_per_bit,
-              SecondValue second = SecondValue::greedy);
+              SecondValue second = SecondValue::greedy, double blur = 0.0);
 
   /// The belief at the start: all poses.
   BeliefStatePtr start(const robot::JointVector& q);

@@ -23,8 +23,9 @@ std::size_t least_group(std::size_t count, int dimensions);
 /// Where each of a planning call's poses is first touched on each motion, computed once. One thread.
 class Predictions {
  public:
-  Predictions(std::shared_ptr<const action::Task> task, std::vector<geometry::Pose> poses)
-      : task_(std::move(task)), poses_(std::move(poses)) {}
+  /// `blur`: m before a reported stop within which the contact may lie.
+  Predictions(std::shared_ptr<const action::Task> task, std::vector<geometry::Pose> poses, double blur = 0.0)
+      : task_(std::move(task)), poses_(std::move(poses)), blur_(blur) {}
 
   const std::vector<geometry::Pose>& poses() const { return poses_; }
 
@@ -35,7 +36,8 @@ class Predictions {
   const std::vector<std::int32_t>& first_contacts(const action::MotionPtr& motion);
 
   /// The members of a set of poses by their first contact, ascending; first contacts that few poses share are put
-  /// together with the next until they have `least` poses, but never with those that are not touched.
+  /// together with the next until they have `least` poses, and with those of which most come within the blur at the
+  /// first; but never with those that are not touched.
   std::vector<Group> split(const action::MotionPtr& motion, const support::Bitset& members, std::size_t least = 1);
 
   /// Those of a set whose first contact is at `first` to `last`.
@@ -46,10 +48,16 @@ class Predictions {
   struct Row {
     action::MotionPtr motion;                 ///< kept, so that no address is used twice
     std::vector<std::int32_t> first_contact;  ///< by pose; -1: not computed yet
+    std::vector<std::int32_t> first_near;     ///< within the blur; as above
   };
+
+  Row& row(const action::MotionPtr& motion);
+  std::size_t first_near(const action::MotionPtr& motion, std::size_t pose);
+  bool are_mostly_near(const action::MotionPtr& motion, const std::vector<std::size_t>& poses, std::size_t waypoint);
 
   std::shared_ptr<const action::Task> task_;
   std::vector<geometry::Pose> poses_;
+  double blur_;
   std::unordered_map<const action::Motion*, Row> rows_;
 };
 

@@ -26,6 +26,7 @@ Action some_action(std::uint64_t seed) {
   Action action = random_action(task(), library, task().scene().start, rng);
   action.expected_cost = 0.25;
   action.contact_probability = 0.75;
+  action.sensing = {0.002, 0.0001, 0.02, 0.03};
   return action;
 }
 
@@ -58,6 +59,7 @@ TEST(SavedAction, ComesBackAsItWas) {
     EXPECT_EQ(again.full_cost, action.full_cost);
     EXPECT_EQ(again.expected_cost, action.expected_cost);
     EXPECT_EQ(again.contact_probability, action.contact_probability);
+    EXPECT_EQ(again.sensing, action.sensing);
     EXPECT_EQ(again.supposed_target.matrix(), action.supposed_target.matrix());
     ASSERT_EQ(again.bodies.size(), action.bodies.size());
     for (std::size_t i = 0; i < action.bodies.size(); ++i) {

@@ -330,6 +330,58 @@ TEST(Stuck, GoesBackAsItCameAndSetsOutFromTheRetreatPlane) {
   EXPECT_GT(stuck, 6);
 }
 
+/// A robot that goes on where it was stopped and feels nothing errs: it may travel on after contacts, and goes back
+/// farther after the next.
+TEST(Contradicted, HasTheRobotGoBackFarther) {
+  Rng rng(14);
+  const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+  Belief belief(model(Kind::particles), task()->scene().start);
+  Planner planner(model(Kind::particles), within(4));
+  ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
+  EXPECT_EQ(belief.sensing(), action::Sensing{});
+  const robot::JointVector stop = belief.history().back().path.back(), free = belief.configuration();
+  const robot::JointVector beyond = stop + 0.02 * (stop - free).normalized();
+  belief.step(action_along(*task(), {free, stop, beyond}), {false, beyond});
+  ASSERT_EQ(belief.health(), belief::Health::contradicted);
+  EXPECT_GT(belief.sensing().stopping_distance, 0.0);
+  const Answer answer = planner.query(belief);
+  ASSERT_TRUE(answer.action);
+  EXPECT_EQ(answer.action->sensing, belief.sensing());
+  action::Action without = *answer.action;
+  without.sensing = {};
+  const belief::Observation felt{true, answer.action->path.back()};
+  EXPECT_LT(belief::locate(*task(), *answer.action, felt).last_free, belief::locate(*task(), without, felt).last_free);
+}
+
+/// What was met without avail is not sought again.
+TEST(Stuck, SeeksNoContactLikeTheLastThatToldNothing) {
+  int asked = 0;
+  for (std::uint64_t seed = 15; seed < 31; ++seed) {
+    Rng rng(seed);
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(4));
+    ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
+    double bits = std::log2(belief.cells().weight());
+    for (int i = 0; i < 8; ++i) {
+      const Answer answer = planner.query(belief);
+      if (!answer.action) break;
+      const double now = std::log2(belief.cells().weight());
+      const auto touch = solver::touch_of(belief.history().back());
+      const auto chosen = std::find_if(planner.alternatives().begin(), planner.alternatives().end(),
+                                       [](const auto& a) { return a.verdict == solver::Verdict::chosen; });
+      ASSERT_NE(chosen, planner.alternatives().end());
+      if (i > 0 && touch && now > bits - 0.1) {
+        ++asked;
+        EXPECT_LE(share_alike(chosen->choice, {*touch}), 0.9);
+      }
+      bits = std::min(bits, now);
+      belief.step(*answer.action, world.execute(*answer.action));
+    }
+  }
+  EXPECT_GT(asked, 4);
+}
+
 /// And if that does not help either: small motions and attempts are set aside in turn, and tried again.
 TEST(Stuck, TriesEverythingAgainInTurn) {
   Rng rng(13);

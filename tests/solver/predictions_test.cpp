@@ -23,10 +23,10 @@ const std::shared_ptr<const action::Task>& task() {
   return made;
 }
 
-Predictions random_predictions(Rng& rng) {
+Predictions random_predictions(Rng& rng, double blur = 0.0) {
   std::vector<Pose> drawn;
   for (std::size_t i = 0; i < poses; ++i) drawn.push_back(task()->scene().prior.sample(rng));
-  return {task(), drawn};
+  return {task(), drawn, blur};
 }
 
 Bitset random_members(Rng& rng) {
@@ -112,6 +112,61 @@ TEST(Split, IsNoCoarserThanItNeedBe) {
     }
     for (const Group& group : predictions.split(motion, members)) ASSERT_EQ(group.first, group.last);
   });
+}
+
+/// Poses that are all about as far away are touched at one waypoint or the next: which one says nothing.
+TEST(Split, DoesNotTellApartWhatIsTouchedWithinTheBlur) {
+  constexpr double blur = 0.001;
+  Rng rng(4);
+  action::ActionLibrary library(*task());
+  int told_sharply = 0, told = 0;
+  for (int i = 0; i < 300; ++i) {
+    const action::MotionPtr motion = motion_of(random_action(*task(), library, task()->scene().start, rng));
+    const PoseVector about = random_pose(task()->scene().prior, rng);
+    std::vector<Pose> close;
+    for (std::size_t k = 0; k < poses; ++k) {
+      PoseVector pose = about;
+      for (const std::size_t d : {1u, 2u}) pose[d] += rng.uniform(-0.0002, 0.0002);
+      close.push_back(geometry::pose_from(pose));
+    }
+    const Bitset all(poses, true);
+    Predictions sharp(task(), close), blurred(task(), close, blur);
+    const auto contacts = [&](const std::vector<Group>& groups) {
+      return std::count_if(groups.begin(), groups.end(),
+                           [&](const Group& group) { return group.first < motion->path.size(); });
+    };
+    told_sharply += contacts(sharp.split(motion, all)) > 1;
+    told += contacts(blurred.split(motion, all)) > 1;
+  }
+  EXPECT_GT(told_sharply, 4);
+  EXPECT_LT(3 * told, told_sharply);
+}
+
+/// And what mostly is farther away is told apart.
+TEST(Split, TellsApartWhatIsTouchedFartherApartThanTheBlur) {
+  constexpr double blur = 0.001;
+  Rng rng(5);
+  action::ActionLibrary library(*task());
+  int compared = 0;
+  for (int i = 0; i < 60; ++i) {
+    const action::MotionPtr motion = motion_of(random_action(*task(), library, task()->scene().start, rng));
+    Predictions blurred = random_predictions(rng, blur);
+    const std::vector<Group> groups = blurred.split(motion, Bitset(poses, true));
+    for (std::size_t g = 1; g < groups.size(); ++g) {
+      if (groups[g].first == motion->path.size()) continue;
+      ++compared;
+      int touched = 0, near = 0;
+      for (const std::size_t member : groups[g].poses) {
+        const Pose& pose = blurred.poses()[member];
+        if (first_contact(*motion, pose) != groups[g].first) continue;
+        const auto first = task()->target_contact().first_within(motion->bodies, pose, blur);
+        ++touched;
+        near += first && *first <= groups[g - 1].first;
+      }
+      EXPECT_LE(2 * near, touched);
+    }
+  }
+  EXPECT_GT(compared, 20);
 }
 
 TEST(LeastGroup, IsHalfOfWhatAContactLeavesOfAnEvenLayout) {
