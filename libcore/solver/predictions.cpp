@@ -29,15 +29,20 @@ std::size_t Predictions::first_contact(const action::MotionPtr& motion, std::siz
 
 std::size_t Predictions::first_near(const action::MotionPtr& motion, std::size_t pose) {
   std::int32_t& stored = row(motion).first_near[pose];
-  if (stored < 0)
+  if (stored < 0 && blur_ > 0.0)
     stored = static_cast<std::int32_t>(
         task_->target_contact().first_within(motion->bodies, poses_[pose], blur_).value_or(motion->path.size()));
+  if (stored < 0) stored = static_cast<std::int32_t>(first_contact(motion, pose));
   return static_cast<std::size_t>(stored);
+}
+
+const std::vector<std::int32_t>& Predictions::first_nears(const action::MotionPtr& motion) {
+  for (std::size_t pose = 0; pose < poses_.size(); ++pose) first_near(motion, pose);
+  return rows_.at(motion.get()).first_near;
 }
 
 bool Predictions::are_mostly_near(const action::MotionPtr& motion, const std::vector<std::size_t>& poses,
                                   std::size_t waypoint) {
-  if (blur_ <= 0.0) return false;
   const auto near =
       std::count_if(poses.begin(), poses.end(), [&](std::size_t pose) { return first_near(motion, pose) <= waypoint; });
   return 2 * static_cast<std::size_t>(near) > poses.size();

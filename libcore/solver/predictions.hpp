@@ -35,6 +35,9 @@ class Predictions {
   /// The same of every pose.
   const std::vector<std::int32_t>& first_contacts(const action::MotionPtr& motion);
 
+  /// The first waypoint at which each pose is within the blur.
+  const std::vector<std::int32_t>& first_nears(const action::MotionPtr& motion);
+
   /// The members of a set of poses by their first contact, ascending; first contacts that few poses share are put
   /// together with the next until they have `least` poses, and with those of which most come within the blur at the
   /// first; but never with those that are not touched.

@@ -39,7 +39,10 @@ RatePolicy::RatePolicy(std::shared_ptr<const action::Task> task, Predictions& pr
       attempts_(std::move(attempts)),
       served_(std::move(served)),
       dimensions_(dimensions) {
-  for (const MotionPtr& motion : motions_) first_contacts_.push_back(&predictions.first_contacts(motion));
+  for (const MotionPtr& motion : motions_) {
+    first_contacts_.push_back(&predictions.first_contacts(motion));
+    first_nears_.push_back(&predictions.first_nears(motion));
+  }
 }
 
 double RatePolicy::cost(const Members& members, const Pose& base_from_tool) {
@@ -95,7 +98,15 @@ RatePolicy::Plan RatePolicy::attempts_at(const Members& members) const {
   return plan;
 }
 
-/// Calls `visit(waypoint, begin, end)` for each group that a motion's outcome tells apart.
+template <typename Entry>
+bool RatePolicy::are_mostly_near(std::size_t motion, Entry begin, Entry end, std::int32_t waypoint) const {
+  const std::vector<std::int32_t>& first_near = *first_nears_[motion];
+  return 2 * std::count_if(begin, end, [&](const auto& entry) { return first_near[entry.second] <= waypoint; }) >
+         end - begin;
+}
+
+/// Calls `visit(waypoint, begin, end)` for each group that a motion's outcome tells apart, as `Predictions::split`
+/// does.
 template <typename Visit>
 void RatePolicy::for_each_group(std::size_t motion, const Members& members, Visit&& visit) {
   sorted_.clear();
@@ -106,8 +117,11 @@ void RatePolicy::for_each_group(std::size_t motion, const Members& members, Visi
   for (auto begin = sorted_.begin(); begin != sorted_.end();) {
     const auto differs = [](std::int32_t at) { return [at](const auto& entry) { return entry.first != at; }; };
     auto end = std::find_if(begin, sorted_.end(), differs(begin->first));
-    while (end != sorted_.end() && end - begin < least && end->first != untouched)
-      end = std::find_if(end, sorted_.end(), differs(end->first));
+    while (end != sorted_.end() && end->first != untouched) {
+      const auto next = std::find_if(end, sorted_.end(), differs(end->first));
+      if (end - begin >= least && !are_mostly_near(motion, end, next, begin->first)) break;
+      end = next;
+    }
     visit(static_cast<std::size_t>(begin->first), begin, end);
     begin = end;
   }

@@ -39,6 +39,8 @@ class RatePolicy {
   Plan attempts_at(const Members& members) const;
   Plan probing(const Members& members, const geometry::Pose* base_from_tool);
   double lead(const geometry::Pose& base_from_tool, const geometry::Pose& base_from_start) const;
+  template <typename Entry>
+  bool are_mostly_near(std::size_t motion, Entry begin, Entry end, std::int32_t waypoint) const;
   template <typename Visit>
   void for_each_group(std::size_t motion, const Members& members, Visit&& visit);
   double rate_of(std::size_t motion, const Members& members, const geometry::Pose* base_from_tool);
@@ -50,6 +52,7 @@ class RatePolicy {
   std::shared_ptr<const action::Task> task_;
   std::vector<action::MotionPtr> motions_;
   std::vector<const std::vector<std::int32_t>*> first_contacts_;  ///< by motion
+  std::vector<const std::vector<std::int32_t>*> first_nears_;     ///< by motion
   std::vector<Attempt> attempts_;
   std::vector<support::Bitset> served_;
   int dimensions_;
