@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "action/task.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "support/error.hpp"
@@ -40,6 +41,11 @@ std::vector<Vector3> standoff_positions(const scene::SearchFrame& frame) {
 }
 
 }  // namespace
+
+Sensing worse_of(const Sensing& a, const Sensing& b) {
+  return {std::max(a.stopping_distance, b.stopping_distance), std::max(a.encoder_error, b.encoder_error),
+          std::max(a.missed_contacts, b.missed_contacts), std::max(a.false_contacts, b.false_contacts)};
+}
 
 Task::Task(scene::Scene scene, TaskOptions options)
     : scene_(std::move(scene)),

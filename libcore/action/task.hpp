@@ -50,6 +50,9 @@ struct Sensing {
   bool operator==(const Sensing&) const = default;
 };
 
+/// Of a robot that may err as much as either.
+Sensing worse_of(const Sensing& a, const Sensing& b);
+
 struct TaskOptions {
   MotionOptions motion;
   ActionOptions actions;

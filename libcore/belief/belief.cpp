@@ -17,9 +17,8 @@ constexpr double prospect = 0.001;          // of the weight of cells, for parts
 constexpr std::size_t parts_weighed = 200;  // whether they are seated
 constexpr double weighed_radius = 0.0008;   // m, of those
 /// Of a robot that was said not to err, and did.
-constexpr double suspected_rate = 0.02;     // share of contacts that are missed, or felt where there is none
-constexpr double suspected_travel = 0.002;  // m that it goes on after a contact
-constexpr double suspected_error = 0.0001;  // m by which its encoders may be off
+constexpr action::Sensing suspected{
+    .stopping_distance = 0.002, .encoder_error = 0.0001, .missed_contacts = 0.02, .false_contacts = 0.02};
 
 constexpr std::size_t parts_asked = 400;     // whether they are seated
 constexpr std::size_t tests_per_cell = 100;  // of parts when cells are looked into, for each cell there is room for
@@ -127,11 +126,7 @@ void Belief::weigh() {
 /// prior on, as if the robot were a poor one.
 void Belief::suspect() {
   health_ = Health::contradicted;
-  action::Sensing sensing = this->sensing();
-  sensing.missed_contacts = std::max(sensing.missed_contacts, suspected_rate);
-  sensing.false_contacts = std::max(sensing.false_contacts, suspected_rate);
-  sensing.stopping_distance = std::max(sensing.stopping_distance, suspected_travel);
-  sensing.encoder_error = std::max(sensing.encoder_error, suspected_error);
+  const action::Sensing sensing = action::worse_of(this->sensing(), suspected);
   for (Trace& trace : history_) trace = retraced(task(), trace, sensing);
   weighed_.emplace(task(), sensing, model_->options.cells);
   weighed_->update(task(), history_);

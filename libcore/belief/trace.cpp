@@ -127,7 +127,8 @@ Stop locate(const Task& task, const Action& action, const Observation& observati
   check(task, observation);
   const JointPath& path = action.path;
   const JointVector& q = observation.q;
-  const double error = action.sensing.encoder_error;
+  const action::Sensing sensing = worse_of(task.options().sensing, action.sensing);
+  const double error = sensing.encoder_error;
   const double allowed = std::max({0.001, task.options().stop_tolerance, error + tie});
   const double off_end = bound(task, path.back(), q);
   if (error > 0.0 && !observation.contact && off_end <= error + tie) return {path.size() - 1, 1.0, path.size() - 1};
@@ -150,8 +151,7 @@ Stop locate(const Task& task, const Action& action, const Observation& observati
     return best;
   }
   best.last_free = best.segment == 0 ? 0 : best.segment - 1;
-  while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < stop_blur(task, action.sensing))
-    --best.last_free;
+  while (best.last_free > 0 && bound(task, path[best.last_free], on_path) < stop_blur(task, sensing)) --best.last_free;
   return best;
 }
 
@@ -179,12 +179,13 @@ Trace trace_of(const Task& task, const Action& action, const Observation& observ
                       : (stop.last_free + 1 == action.path.size() ? action.path.size() : stop.last_free);
   trace.path.assign(action.path.begin(), action.path.begin() + static_cast<std::ptrdiff_t>(stop.last_free) + 1);
   trace.touch = trace.path.size();
-  trace.error = action.sensing.encoder_error;
+  const action::Sensing sensing = worse_of(task.options().sensing, action.sensing);
+  trace.error = sensing.encoder_error;
   if (observation.contact) {
     JointPath rest;
     for (std::size_t i = stop.last_free + 1; i < stop.segment; ++i) rest.push_back(action.path[i]);
     rest.push_back(observation.q);
-    add_stop(task, action.sensing, rest, trace);
+    add_stop(task, sensing, rest, trace);
   } else if (stop.segment > stop.last_free)
     trace.path.push_back(observation.q), trace.touch = trace.path.size();
   trace.bodies = BodyPath(task.bodies(), trace.path);

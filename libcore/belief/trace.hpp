@@ -30,7 +30,7 @@ struct Stop {
 /// m before a reported stop within which the first contact may lie.
 double stop_blur(const Task& task, const action::Sensing& sensing);
 
-/// Finds the stop, of a robot that errs by no more than the action's `sensing` has it. A robot without contact at the
+/// Finds the stop, of a robot that errs by no more than the task or the action has it. A robot without contact at the
 /// path's end, give or take the encoder error, has gone all the way; any other stop is the path's first pass there:
 /// what comes after it may not have been tested. After a contact the last free waypoint is farther back than the stop
 /// tolerance, the stopping distance and what the encoders may be off at both. Throws `stop_off_path` if the robot
@@ -61,7 +61,7 @@ std::vector<const Trace*> believed(const std::vector<Trace>& history);
 /// Of what was done and seen, in order: equal for beliefs of one model that went through the same.
 std::uint64_t fingerprint(const std::vector<Trace>& history, std::size_t count);
 
-/// As the action's `sensing` has it.
+/// Of such a robot.
 Trace trace_of(const Task& task, const Action& action, const Observation& observation, const Stop& stop);
 
 /// The same of a robot that errs more than the action had it: the touch may be farther back.
