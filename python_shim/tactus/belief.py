@@ -81,7 +81,8 @@ class Belief(Object):
         return self._of(self._made_by("tactus_belief_clone", BeliefHandle, self.handle), self._dof)
 
     def step(self, action, observation):
-        """Takes in what the robot reported after it executed ``action``. Some 0.1 s; in five dimensions once or twice up to 40 s.
+        """Takes in what the robot reported after it executed ``action``. Some 0.1 s; up to a minute once or twice in five
+        dimensions, and ten seconds in fewer where observations tell nothing more.
 
         Raises `StopOffPath`, `InvalidArgument`, `WrongScenario`; then nothing has changed."""
         call("tactus_belief_step", self.handle, action.handle, ctypes.byref(observation.as_struct()))
