@@ -21,7 +21,8 @@ constexpr action::Sensing suspected{
     .stopping_distance = 0.002, .encoder_error = 0.0001, .missed_contacts = 0.02, .false_contacts = 0.02};
 
 constexpr std::size_t parts_asked = 400;     // whether they are seated
-constexpr std::size_t tests_per_cell = 100;  // of parts when cells are looked into, for each cell there is room for
+constexpr std::size_t tests_to_look = 5;     // of parts when cells are looked into, for each cell there is room for;
+constexpr std::size_t tests_to_prove = 100;  // and when that proves that the tool is seated
 constexpr std::size_t crowded = 5;           // cells for each there is room for: no more are looked into
 constexpr double hardly_less = 0.97;         // of the weight, left by an observation that told next to nothing
 constexpr std::uint32_t patience = 3;        // such observations in a row
@@ -162,7 +163,7 @@ bool Belief::look_closer(const Belief& before) {
 
 /// Unless that takes too long.
 Looked Belief::look_closer(double radius) {
-  const std::size_t room = model_->options.cells.most, most_tests = tests_per_cell * room;
+  const std::size_t room = model_->options.cells.most, most_tests = tests_to_look * room;
   if (cells_->coarsest() <= radius || cells_->size() > crowded * room) return Looked::gave_up;
   support::Rng rng(fingerprint(history_, history_.size()));
   if (cells_->estimated_tests(task(), history_, radius, rng) > static_cast<double>(most_tests)) return Looked::gave_up;
@@ -212,7 +213,7 @@ bool Belief::prove_seated() {
   support::Rng rng(fingerprint(history_, history_.size()));
   const std::vector<Cell> parts = cells_->draw_parts(task(), history_, parts_asked, fine_radius, rng);
   if (2 * static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(), seated)) <= parts.size()) return false;
-  return cells_->look_inside(task(), history_, seated, tests_per_cell * model_->options.cells.most) == Looked::all;
+  return cells_->look_inside(task(), history_, seated, tests_to_prove * model_->options.cells.most) == Looked::all;
 }
 
 }  // namespace tactus::belief

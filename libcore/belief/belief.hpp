@@ -28,6 +28,15 @@ struct Options {
   std::size_t particles = 200;  ///< poses drawn for planning
 };
 
+/// A pose drawn for planning, and how far contacts and clearances of the history may be off there (m); 0: it reproduces
+/// all of it.
+struct Drawn {
+  Pose pose = Pose::Identity();
+  double miss = 0.0;
+};
+
+std::vector<Pose> poses_of(const std::vector<Drawn>& drawn);
+
 /// What is const of every belief of a scenario. Shared.
 struct Model {
   std::shared_ptr<const Task> task;
@@ -103,8 +112,8 @@ class Belief {
   /// eighth are anywhere in a cell, so that no part of the belief goes without a pose. `known`: poses drawn for an
   /// earlier state of this belief; they are brought back to the history where it is hard to find poses afresh. Looks no
   /// further once half of a budget in seconds is used up.
-  std::vector<Pose> draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known = {},
-                         const support::Deadline& deadline = support::Deadline::unlimited()) const;
+  std::vector<Drawn> draw(std::size_t count, support::Rng& rng, const std::vector<Drawn>& known = {},
+                          const support::Deadline& deadline = support::Deadline::unlimited()) const;
 
   /// Phase 1: up to `count` poses drawn from the prior and brought into agreement with the history, to a millimetre at
   /// least, from no farther away than half a voxel's diagonal or so. Fewer, or none, where they are rare. Looks no
@@ -112,7 +121,10 @@ class Belief {
   std::vector<Pose> draw_feasible(std::size_t count, support::Rng& rng,
                                   const support::Deadline& deadline = support::Deadline::unlimited()) const;
 
-  Summary summary() const;
+  Summary summary() const;  ///< O(cells)
+
+  /// As the summary has it; O(1) for cells of a prior without weights.
+  double bits() const;
 
   /// The whole state as bytes, versioned and with a checksum; `restore` gives a belief that acts like this one. Throws
   /// `bad_saved_state`, `wrong_scenario`.
@@ -133,7 +145,7 @@ class Belief {
   bool prove_seated();
   bool look_closer(const Belief& before);
   Looked look_closer(double radius);
-  std::vector<Pose> draw_explained(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const;
+  std::vector<Drawn> draw_explained(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const;
 
   std::shared_ptr<const Model> model_;
   JointVector q_;

@@ -44,6 +44,9 @@ class CellBelief {
   std::vector<Cell> cells() const;  ///< O(cells), as the two below
   template <typename Visit>
   void for_each(Visit&& visit) const;
+  /// `visit(cell, half_width, weight)`, by what all cells of a grid have in common.
+  template <typename Visit>
+  void for_each_weighed(Visit&& visit) const;
   template <typename Test>
   bool all_of(Test&& test) const;
 
@@ -51,9 +54,10 @@ class CellBelief {
   double radius(const Cell& cell) const { return frame_.radius(cell); }  ///< m, as in `CellFrame`
   double coarsest() const;                                               ///< radius of the coarsest cell, m
   double volume(const Cell& cell) const { return frame_.volume(cell); }
-  double volume() const;                  ///< of all cells
-  double weight(const Cell& cell) const;  ///< volume times the prior's density at the centre, less its bits
-  double weight() const;                  ///< of all cells
+  double volume() const;                        ///< of all cells
+  double weight(const Cell& cell) const;        ///< volume times the prior's density at the centre, less its bits
+  double weight() const;                        ///< of all cells
+  bool is_uniform() const { return !weighs_; }  ///< they weigh as much as their volume
 
   /// Removes the cells that can't have given every one of some traces, or that `excludes` says so of. Returns whether
   /// any are left; if not, nothing is changed.
@@ -131,6 +135,19 @@ void CellBelief::for_each(Visit&& visit) const {
   all_of([&](const Cell& cell) {
     visit(cell);
     return true;
+  });
+}
+
+template <typename Visit>
+void CellBelief::for_each_weighed(Visit&& visit) const {
+  const Cell whole;
+  const double usual = frame_.volume(whole);
+  for_each([&](const Cell& cell) {
+    const double weighs = weighs_ ? weight(cell) : grid_ ? usual : volume(cell);
+    if (grid_)
+      visit(cell, frame_.half, weighs);
+    else
+      visit(cell, half_width(cell), weighs);
   });
 }
 

@@ -8,11 +8,13 @@ namespace tactus::belief {
 namespace {
 
 constexpr std::size_t least_trial = 24;       // projections after which it is asked whether they pay:
-constexpr std::size_t pays_from = 3;          // one in so many is exact
+constexpr std::size_t pays_from = 3;          // one in so many misses the history by no more than `finest_part`
 constexpr double least_near = 0.001;          // m by which a pose may miss the history and serve for planning
 constexpr double near_share = 0.15;           // of a cell's radius by which it may
+constexpr std::size_t draws_per_pose = 4;     // from cells, many of which may be ruled out
 constexpr std::size_t lots_per_pose = 6;      // of fine parts, most of which may turn out to be empty
-constexpr double finest_part = 0.00025;       // m: radius of the parts that poses are drawn from
+constexpr double finest_part = 0.00025;       // m: radius of the parts that poses are drawn from; a pose that misses
+                                              // the history by no more serves as well as an exact one
 constexpr double least_step = -6.0;           // log2 of how much of a cell's width
 constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
 constexpr std::size_t unproved_share = 8;     // of them anywhere in a cell, for what no other speaks for
@@ -30,36 +32,53 @@ class Draw {
         rng_(rng),
         deadline_(deadline) {}
 
-  std::vector<Pose> poses(const std::vector<Pose>& known) {
+  std::vector<Drawn> poses(const std::vector<Drawn>& known) {
+    bring_back(known);
     from_cells();
-    if (exact_.size() >= count_ / least_share) return chosen(0);
+    if (close_.size() >= count_ / least_share) return chosen(0);
     from_fine_parts();
     if (size() >= count_) return chosen(0);
-    bring_back(known);
     from_coarse_parts();
     from_neighbours();
     return chosen(count_ / unproved_share);
   }
 
  private:
-  std::size_t size() const { return exact_.size() + near_poses_.size(); }
+  std::size_t size() const { return close_.size() + near_poses_.size(); }
   bool lacks(std::size_t wanted) const { return size() < wanted && deadline_.used_fraction() < 0.5; }
 
-  void add(const PoseVector& pose, bool is_exact) { (is_exact ? exact_ : near_poses_).push_back(pose); }
+  void add(const Projection& found) { (found.miss <= finest_part ? close_ : near_poses_).push_back(found); }
   void add_projected(const PoseVector& from) {
-    if (const auto found = projected(belief_.task(), belief_.history(), from, near_)) add(found->pose, found->exact);
+    if (const auto found = projected(belief_.task(), belief_.history(), from, near_)) add(*found);
   }
-  /// A pose from a cell, brought into agreement with the history unless it can't be far from that.
-  void add_from(const Cell& cell) {
+  /// A motion that met nothing would have met it. Such a pose is left out: moved out of the way it would be just beside
+  /// what was swept, as would all others like it, and promise a contact to whatever the robot does next.
+  bool was_missed(const PoseVector& v) const {
+    const Pose pose = geometry::pose_from(v);
+    return std::any_of(belief_.history().begin(), belief_.history().end(), [&](const Trace& trace) {
+      return !trace.contact && !trace.doubted && !reproduces(belief_.task(), trace, pose);
+    });
+  }
+
+  /// A pose from a cell, brought into agreement with the contacts unless it can't be far from that. False if a motion
+  /// that met nothing rules it out.
+  bool add_from(const Cell& cell) {
     const PoseVector pose = cells_.draw_in(cell, rng_);
-    if (cells_.radius(cell) > fine_radius) return add_projected(pose);
-    add(pose, reproduces(belief_.task(), belief_.history(), geometry::pose_from(pose)));
+    const double radius = cells_.radius(cell);
+    if (was_missed(pose)) return false;
+    if (radius > fine_radius)
+      add_projected(pose);
+    else
+      add({pose, reproduces(belief_.task(), belief_.history(), geometry::pose_from(pose)) ? 0.0 : radius});
+    return true;
   }
 
   void from_cells() {
-    for (std::size_t tried = 0; tried < count_ && deadline_.used_fraction() < 0.5; ++tried) {
-      if (tried >= least_trial && exact_.size() * pays_from < tried) break;
-      add_from(cells_.draw_cell(rng_));
+    const std::size_t before = close_.size();
+    std::size_t tried = 0;
+    for (std::size_t drawn = 0; drawn < draws_per_pose * count_ && tried < count_ && lacks(count_); ++drawn) {
+      if (tried >= least_trial && (close_.size() - before) * pays_from < tried) break;
+      tried += add_from(cells_.draw_cell(rng_));
     }
   }
 
@@ -74,9 +93,10 @@ class Draw {
     }
   }
 
-  void bring_back(const std::vector<Pose>& known) {
+  /// Those of an earlier state, as far as they agree with what was felt since; a part of those wanted is drawn afresh.
+  void bring_back(const std::vector<Drawn>& known) {
     for (std::size_t i = 0; i < known.size() && lacks(count_ - count_ / least_share); ++i)
-      add_projected(geometry::pose_vector(known[i]));
+      if (const PoseVector pose = geometry::pose_vector(known[i].pose); !was_missed(pose)) add_projected(pose);
   }
 
   void from_coarse_parts() {
@@ -92,7 +112,7 @@ class Draw {
 
   const PoseVector& any() {
     const std::size_t i = rng_.below(size());
-    return i < exact_.size() ? exact_[i] : near_poses_[i - exact_.size()];
+    return i < close_.size() ? close_[i].pose : near_poses_[i - close_.size()].pose;
   }
 
   /// A pose up to a cell's width off another, and mostly much less.
@@ -106,15 +126,17 @@ class Draw {
   }
 
   /// All but `unproved` of those wanted; the rest are anywhere in a cell.
-  std::vector<Pose> chosen(std::size_t unproved) {
-    std::vector<Pose> poses;
-    for (const PoseVector& v : exact_)
-      if (poses.size() + unproved < count_) poses.push_back(geometry::pose_from(v));
-    for (const PoseVector& v : near_poses_)
-      if (const Pose pose = geometry::pose_from(v); poses.size() + unproved < count_ && belief_.contains(pose))
-        poses.push_back(pose);
-    for (std::size_t i = 0; i < unproved || poses.size() < count_ / least_share; ++i)
-      poses.push_back(geometry::pose_from(cells_.draw_in(cells_.draw_cell(rng_), rng_)));
+  std::vector<Drawn> chosen(std::size_t unproved) {
+    std::vector<Drawn> poses;
+    for (const std::vector<Projection>* found : {&close_, &near_poses_})
+      for (const auto& [v, miss] : *found)
+        if (const Pose pose = geometry::pose_from(v);
+            poses.size() + unproved < count_ && (miss == 0.0 || belief_.contains(pose)))
+          poses.push_back({pose, miss});
+    for (std::size_t i = 0; i < unproved || poses.size() < count_ / least_share; ++i) {
+      const Cell cell = cells_.draw_cell(rng_);
+      poses.push_back({geometry::pose_from(cells_.draw_in(cell, rng_)), cells_.radius(cell)});
+    }
     return poses;
   }
 
@@ -124,26 +146,32 @@ class Draw {
   double near_;
   support::Rng& rng_;
   const support::Deadline& deadline_;
-  std::vector<PoseVector> exact_, near_poses_;
+  std::vector<Projection> close_, near_poses_;
 };
 
 }  // namespace
 
-std::vector<Pose> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Pose>& known,
-                               const support::Deadline& deadline) const {
+std::vector<Pose> poses_of(const std::vector<Drawn>& drawn) {
+  std::vector<Pose> poses;
+  for (const Drawn& one : drawn) poses.push_back(one.pose);
+  return poses;
+}
+
+std::vector<Drawn> Belief::draw(std::size_t count, support::Rng& rng, const std::vector<Drawn>& known,
+                                const support::Deadline& deadline) const {
   if (weighed_) return draw_explained(count, rng, deadline);
   return Draw(*this, count, rng, deadline).poses(known);
 }
 
 /// Of fine parts drawn by weight: exactly as the explanation of the part has it where that can be had.
-std::vector<Pose> Belief::draw_explained(std::size_t count, support::Rng& rng,
-                                         const support::Deadline& deadline) const {
-  std::vector<Pose> poses;
+std::vector<Drawn> Belief::draw_explained(std::size_t count, support::Rng& rng,
+                                          const support::Deadline& deadline) const {
+  std::vector<Drawn> poses;
   const auto parts = weighed_->draw_parts(task(), history_, count, finest_part, rng, deadline);
   for (const WeighedCells::Weighed& part : parts) {
     const std::vector<const Trace*> traces = WeighedCells::explained(history_, part.doubts);
     const auto found = projected(task(), traces, part.cell.centre, least_near);
-    poses.push_back(geometry::pose_from(found ? found->pose : part.cell.centre));
+    poses.push_back({geometry::pose_from(found ? found->pose : part.cell.centre), found ? found->miss : least_near});
   }
   return poses;
 }

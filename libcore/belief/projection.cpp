@@ -13,6 +13,7 @@ constexpr double close_enough = 0.00005;  // m
 constexpr double clear_by = 0.00005;      // m, where the robot was free
 constexpr int first_doubt = 3;            // step from which on the demands should get smaller
 constexpr double hopeless = 2.0;          // times the worst demand of the step before
+constexpr double least_miss = 0.0001;     // m, of a pose that is not exact
 constexpr double damping = 1e-8;          // m^2
 constexpr double longest_shift = 0.02;    // m in one step
 
@@ -148,18 +149,19 @@ PoseVector inside(const scene::Prior& prior, PoseVector v) {
 std::optional<Projection> projected(const Task& task, const std::vector<const Trace*>& history, const PoseVector& seed,
                                     double near) {
   const double lever = 0.5 * task.target_diameter();
+  std::optional<Projection> nearest;
   PoseVector at = inside(task.scene().prior, seed);
   double before = 0.0;
   for (int step = 0; step < steps; ++step) {
-    if (reproduces(task, history, geometry::pose_from(at))) return Projection{at, true};
+    if (reproduces(task, history, geometry::pose_from(at))) return Projection{at, 0.0};
     const Demands demands = demands_of(task, history, at, step % 2 == 0);
     const double worst = demands.largest();
+    if (worst < (nearest ? nearest->miss : near)) nearest = Projection{at, std::max(worst, least_miss)};
     if (step >= first_doubt && worst > hopeless * before) break;
-    if (step + 1 == steps && worst < near) return Projection{at, false};
     before = worst;
     at = inside(task.scene().prior, moved(at, demands, lever));
   }
-  return std::nullopt;
+  return nearest;
 }
 
 std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed,

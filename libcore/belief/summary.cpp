@@ -20,45 +20,65 @@ double tolerance_volume(const Task& task) {
   return product;
 }
 
+/// Sines and cosines of six numbers, worked out again only where they change: cells of a grid come row by row.
+class Turns {
+ public:
+  void at(const PoseVector& v) {
+    for (int d = 0; d < 6; ++d)
+      if (v[d] != last_[d]) last_[d] = v[d], sine_[d] = std::sin(v[d]), cosine_[d] = std::cos(v[d]);
+  }
+  const Vector6& sine() const { return sine_; }
+  const Vector6& cosine() const { return cosine_; }
+
+ private:
+  Vector6 last_ = Vector6::Zero(), sine_ = Vector6::Zero(), cosine_ = Vector6::Ones();
+};
+
 /// Circular mean of the angles, arithmetic mean of the positions.
 Vector6 mean_of(const CellBelief& cells, double total) {
   Vector6 sum = Vector6::Zero(), sine = Vector6::Zero(), cosine = Vector6::Zero();
-  cells.for_each([&](const Cell& cell) {
-    const double share = cells.weight(cell) / total;
-    for (int d = 0; d < 6; ++d) {
-      sum[d] += share * cell.centre[d];
-      sine[d] += share * std::sin(cell.centre[d]);
-      cosine[d] += share * std::cos(cell.centre[d]);
-    }
+  Turns turns;
+  cells.for_each_weighed([&](const Cell& cell, const PoseVector&, double weight) {
+    const double share = weight / total;
+    turns.at(cell.centre);
+    sum += share * Eigen::Map<const Vector6>(cell.centre.data());
+    sine += share * turns.sine();
+    cosine += share * turns.cosine();
   });
   for (int d = 3; d < 6; ++d) sum[d] = scene::nearest_angle(std::atan2(sine[d], cosine[d]), sum[d]);
   return sum;
 }
 
-/// `bits` is the entropy in units of the task tolerance: within a cell the target is uniform.
+/// The entropy in units of the task tolerance: within a cell the target is uniform.
+double bits_of(const CellBelief& cells, const Task& task) {
+  const double total = cells.weight();
+  double bits = std::log2(total / tolerance_volume(task));
+  if (cells.is_uniform()) return std::max(0.0, bits);
+  cells.for_each([&](const Cell& cell) {
+    const double weight = cells.weight(cell);
+    if (weight > 0.0) bits -= weight / total * std::log2(weight / cells.volume(cell));
+  });
+  return std::max(0.0, bits);
+}
+
 void describe_cells(const CellBelief& cells, const Task& task, Summary& summary) {
   const double total = cells.weight();
   const Vector6 mean = mean_of(cells, total);
   Vector6 low = Vector6::Constant(1e300), high = -low;
   Matrix6 covariance = Matrix6::Zero();
-  double bits = std::log2(total / tolerance_volume(task));
-  cells.for_each([&](const Cell& cell) {
-    Vector6 off, half;
-    for (int d = 0; d < 6; ++d) {
-      off[d] = (d < 3 ? cell.centre[d] : scene::nearest_angle(cell.centre[d], mean[d])) - mean[d];
-      half[d] = cells.half_width(cell)[d];
-    }
-    const double weight = cells.weight(cell), share = weight / total;
+  cells.for_each_weighed([&](const Cell& cell, const PoseVector& half_width, double weight) {
     if (weight <= 0.0) return;
+    const Eigen::Map<const Vector6> half(half_width.data());
+    Vector6 off = Eigen::Map<const Vector6>(cell.centre.data()) - mean;
+    for (int d = 3; d < 6; ++d) off[d] = scene::nearest_angle(cell.centre[d], mean[d]) - mean[d];
     if (cell.bits <= negligible_bits) {
       low = low.cwiseMin(off - half);
       high = high.cwiseMax(off + half);
     }
-    covariance += share * (off * off.transpose() + Matrix6(half.cwiseAbs2().asDiagonal()) / 3.0);
-    bits -= share * std::log2(weight / cells.volume(cell));
+    covariance += weight / total * (off * off.transpose() + Matrix6(half.cwiseAbs2().asDiagonal()) / 3.0);
   });
   summary.cells = cells.size();
-  summary.bits = std::max(0.0, bits);
+  summary.bits = bits_of(cells, task);
   for (int d = 0; d < 6; ++d) summary.mean[d] = mean[d], summary.extent[d] = high[d] - low[d];
   std::copy(covariance.data(), covariance.data() + 36, summary.covariance.begin());
 }
@@ -89,6 +109,8 @@ void describe_voxels(const VoxelBelief& voxels, const Task& task, Summary& summa
 }
 
 }  // namespace
+
+double Belief::bits() const { return cells_ ? bits_of(*cells_, task()) : summary().bits; }
 
 Summary Belief::summary() const {
   Summary summary;

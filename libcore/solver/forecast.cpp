@@ -29,7 +29,8 @@ std::vector<double> forecast(const belief::Belief& belief, const action::Action&
                              support::Rng& rng) {
   const action::MotionPtr motion = motion_of(belief.task(), action);
   const std::size_t count = belief.model().options.particles;
-  if (belief.phase() == belief::Phase::poses) return forecast_of(belief.draw(count, rng), belief, motion);
+  if (belief.phase() == belief::Phase::poses)
+    return forecast_of(belief::poses_of(belief.draw(count, rng)), belief, motion);
   std::vector<geometry::Pose> feasible;
   if (likelihood == belief::Likelihood::calibrated) feasible = belief.draw_feasible(count, rng);
   return std::make_shared<VoxelProblem>(belief.shared_model(), nullptr, std::move(feasible), 0.0)

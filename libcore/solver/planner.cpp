@@ -13,8 +13,9 @@ namespace tactus::solver {
 namespace {
 
 constexpr std::uint64_t own_stream = 0x706c616e;  // apart from whatever else begins with the same seed
-constexpr double noticeable_bits = 0.1;
-constexpr int patience = 3;  // queries in a stage in which the belief hardly shrank
+constexpr double noticeable_bits = 0.1;           // by which a contact makes the belief smaller, if it tells anything,
+constexpr double swept_bits = 0.005;              // and a motion that met nothing
+constexpr int patience = 3;                       // queries in a stage in which the belief hardly shrank
 constexpr int stages = 3;
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
@@ -96,7 +97,8 @@ void Planner::note_fruitless(const belief::Belief& belief) {
     standing_.fruitless.push_back(history.back().action_id);
   const double bits =
       std::log2(belief.phase() == belief::Phase::voxels ? static_cast<double>(size) : belief.cells().weight());
-  const bool shrank = is_first || bits < standing_.bits - noticeable_bits;
+  const bool met = !history.empty() && history.back().contact;
+  const bool shrank = is_first || bits < standing_.bits - (met ? noticeable_bits : swept_bits);
   standing_.stalls = shrank ? 0 : standing_.stalls + 1;
   if (shrank) standing_.bits = bits;
   standing_.q = belief.configuration();
@@ -126,6 +128,14 @@ std::optional<int> Planner::followed(const belief::Belief& belief) {
   return std::nullopt;
 }
 
+/// Of the poses drawn for planning.
+Predictions Planner::predictions(const belief::Belief& belief) const {
+  std::vector<double> misses;
+  for (const belief::Drawn& drawn : poses_) misses.push_back(drawn.miss);
+  const double blur = belief::stop_blur(*model_->task, belief.sensing());
+  return {model_->task, belief::poses_of(poses_), blur, std::move(misses)};
+}
+
 void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   BeliefStatePtr start;
   if (belief.phase() == belief::Phase::voxels) {
@@ -137,9 +147,8 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   } else {
     if (standing_.stalls > 0 && standing_.stalls % patience == 0) poses_.clear();
     poses_ = belief.draw(model_->options.particles, rng_, poses_, deadline);
-    start = std::make_shared<PoseProblem>(model_->task, library_, poses_, belief.summary().bits, options_.cost_per_bit,
-                                          second_value_of(options_.solver),
-                                          belief::stop_blur(*model_->task, belief.sensing()))
+    start = std::make_shared<PoseProblem>(model_->task, library_, predictions(belief), belief.bits(),
+                                          options_.cost_per_bit, second_value_of(options_.solver))
                 ->start(belief.configuration());
   }
   SearchOptions search = search_options(options_);
@@ -208,7 +217,7 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   for (auto choice = next(); choice; choice = next()) {
     const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
     auto made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited,
-                                  stage() == Stage::all ? motion::JointPath{} : belief.way_back());
+                                  touches.empty() || stage() == Stage::all ? motion::JointPath{} : belief.way_back());
     if (made &&
         std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
       verdicts[*choice] = Verdict::chosen;

@@ -6,6 +6,7 @@
 
 #include "belief/belief.hpp"
 #include "solver/alternatives.hpp"
+#include "solver/predictions.hpp"
 #include "solver/solvers.hpp"
 #include "solver/touches.hpp"
 
@@ -58,6 +59,7 @@ class Planner {
   Stage stage() const;
   bool is_unpromising(const action::Motion& motion) const;
   std::vector<Touch> touched_in_vain(const belief::Belief& belief) const;
+  Predictions predictions(const belief::Belief& belief) const;
   void plan(const belief::Belief& belief, support::Deadline& deadline);
 
   std::shared_ptr<const belief::Model> model_;
@@ -81,7 +83,7 @@ class Planner {
     int stalls = 0;     ///< queries since then
   };
   Standing standing_;
-  std::vector<geometry::Pose> poses_;  ///< of the last planning call on poses
+  std::vector<belief::Drawn> poses_;  ///< of the last planning call on poses
   std::unique_ptr<Policy> policy_;
   mutable std::vector<Alternative> alternatives_;  ///< once asked for
   std::atomic<bool> cancelled_{false};

@@ -19,7 +19,8 @@ using support::Bitset;
 
 namespace {
 
-constexpr int lines_per_side = 5;
+constexpr int lines_per_side = 9;
+constexpr std::size_t going_on = 6;          // waypoints of a sweep after the last pose that it touches
 constexpr std::size_t inner_candidates = 2;  // insertion attempts considered below the start
 constexpr double same_seat = 0.0015;         // m between seated poses that one attempt may serve
 constexpr double lever = 0.02;               // m by which a turn counts as a shift there
@@ -89,11 +90,12 @@ class PoseState : public BeliefState {
                                          : 0.0;
     Choice choice{motion, {}};
     const std::size_t least = least_group(members_.count(), problem_->dimensions());
-    for (const auto& [waypoint, last, group] : problem_->predictions_.split(motion, members_, least)) {
+    for (const auto& [waypoint, last, group, expected] : problem_->predictions_.split(motion, members_, least)) {
       Outcome outcome;
       outcome.waypoint = waypoint;
       outcome.last = last;
-      outcome.probability = static_cast<double>(group.size()) / total;
+      outcome.probability = expected / total;
+      outcome.possible = static_cast<double>(group.size()) / total;
       const std::size_t reached = std::min(waypoint, motion->path.size() - 1);
       outcome.cost = problem_->task_->options().cost.action + lead + motion->cost_to[reached];
       outcome.goal =
@@ -112,10 +114,10 @@ class PoseState : public BeliefState {
 };
 
 PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
-                         std::vector<Pose> poses, double bits, double cost_per_bit, SecondValue second, double blur)
+                         Predictions predictions, double bits, double cost_per_bit, SecondValue second)
     : task_(std::move(task)),
       library_(std::move(library)),
-      predictions_(task_, std::move(poses), blur),
+      predictions_(std::move(predictions)),
       bits_(bits),
       cost_per_bit_(cost_per_bit),
       second_(second) {
@@ -147,9 +149,22 @@ bool PoseProblem::seated(const Motion& motion, std::size_t pose) const {
 }
 
 const std::vector<MotionPtr>& PoseProblem::anchored(const JointVector& near) {
-  if (!anchored_made_) anchored_ = action::probes(*task_, region(), near, lines_per_side);
+  if (!anchored_made_) {
+    anchored_ = action::probes(*task_, region(), near, lines_per_side);
+    for (MotionPtr& motion : anchored_)
+      if (motion->kind == action::Kind::sweep) motion = ending_with_contacts(motion);
+  }
   anchored_made_ = true;
   return anchored_;
+}
+
+/// Without what it goes on after the last pose that it touches, but for a little.
+MotionPtr PoseProblem::ending_with_contacts(const MotionPtr& motion) {
+  std::size_t last = 0;
+  for (const std::int32_t first_contact : predictions_.first_contacts(motion))
+    if (const auto at = static_cast<std::size_t>(first_contact); at < motion->path.size()) last = std::max(last, at);
+  const std::size_t waypoints = last + 1 + going_on;
+  return last > 0 && waypoints < motion->path.size() ? action::truncated(*task_, *motion, waypoints) : motion;
 }
 
 MotionPtr PoseProblem::insertion_at(std::size_t seat, const JointVector& near) {

@@ -14,11 +14,10 @@ namespace tactus::solver {
 /// and where each pose is first touched on each motion. One thread.
 class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
  public:
-  /// `bits`: log2 of how many tolerances the full belief spans; `cost_per_bit` in units of cost; `blur`: m before a
-  /// reported stop within which the contact may lie.
+  /// `predictions`: of the poses. `bits`: log2 of how many tolerances the full belief spans; `cost_per_bit` in units of
+  /// cost.
   PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
-              std::vector<geometry::Pose> poses, double bits, double cost_per_bit,
-              SecondValue second = SecondValue::greedy, double blur = 0.0);
+              Predictions predictions, double bits, double cost_per_bit, SecondValue second = SecondValue::greedy);
 
   /// The belief at the start: all poses.
   BeliefStatePtr start(const robot::JointVector& q);
@@ -30,6 +29,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   int dimensions() const;  ///< that are free
   std::size_t seats() const { return task_->scene().target.target_from_seated.size(); }
   void find_neighbours();
+  action::MotionPtr ending_with_contacts(const action::MotionPtr& motion);
   action::MotionPtr insertion_at(std::size_t seat, const robot::JointVector& near);
   std::vector<action::MotionPtr> insertions(const support::Bitset& members, const robot::JointVector& q,
                                             std::size_t most);

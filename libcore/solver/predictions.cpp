@@ -12,6 +12,12 @@ std::size_t least_group(std::size_t count, int dimensions) {
   return static_cast<std::size_t>(std::max(1.0, std::round(0.5 * left)));
 }
 
+Predictions::Predictions(std::shared_ptr<const action::Task> task, std::vector<geometry::Pose> poses, double blur,
+                         std::vector<double> misses)
+    : task_(std::move(task)), poses_(std::move(poses)), misses_(std::move(misses)), blur_(blur) {
+  misses_.resize(poses_.size(), 0.0);
+}
+
 Predictions::Row& Predictions::row(const action::MotionPtr& motion) {
   const auto [entry, is_new] = rows_.try_emplace(motion.get());
   const std::vector<std::int32_t> unknown(is_new ? poses_.size() : 0, -1);
@@ -21,9 +27,13 @@ Predictions::Row& Predictions::row(const action::MotionPtr& motion) {
 
 std::size_t Predictions::first_contact(const action::MotionPtr& motion, std::size_t pose) {
   std::int32_t& stored = row(motion).first_contact[pose];
-  if (stored < 0)
+  if (stored < 0) {
+    const contact::TargetContact& target = task_->target_contact();
+    double deeper = motion->kind == action::Kind::insertion ? 0.0 : misses_[pose];
+    if (may_graze(motion)) deeper = std::max(deeper, 0.5 * blur_);
     stored = static_cast<std::int32_t>(
-        task_->target_contact().first_contact(motion->bodies, poses_[pose]).value_or(motion->path.size()));
+        target.first_within(motion->bodies, poses_[pose], target.margin() - deeper, 1).value_or(motion->path.size()));
+  }
   return static_cast<std::size_t>(stored);
 }
 
@@ -53,17 +63,31 @@ const std::vector<std::int32_t>& Predictions::first_contacts(const action::Motio
   return rows_.at(motion.get()).first_contact;
 }
 
+/// Where a pose that is not touched is grazed first; the path's size if it is not.
+std::size_t Predictions::grazed(const action::MotionPtr& motion, std::size_t pose) {
+  return may_graze(motion) ? first_near(motion, pose) : motion->path.size();
+}
+
 std::vector<Group> Predictions::split(const action::MotionPtr& motion, const support::Bitset& members,
                                       std::size_t least) {
+  const std::size_t untouched = motion->path.size();
   std::map<std::size_t, std::vector<std::size_t>> touched;
-  members.for_each([&](std::size_t pose) { touched[first_contact(motion, pose)].push_back(pose); });
+  std::map<std::size_t, double> expected;
+  members.for_each([&](std::size_t pose) {
+    const std::size_t at = first_contact(motion, pose);
+    const std::size_t or_at = at == untouched ? grazed(motion, pose) : at;
+    for (const std::size_t waypoint : {at, or_at}) expected[waypoint] += 0.5;
+    touched[at].push_back(pose);
+    if (or_at != at) touched[or_at].push_back(pose);
+  });
   std::vector<Group> groups;
   for (auto& [waypoint, poses] : touched) {
-    if (waypoint == motion->path.size() || groups.empty() ||
+    if (waypoint == untouched || groups.empty() ||
         (groups.back().poses.size() >= least && !are_mostly_near(motion, poses, groups.back().first)))
       groups.push_back({waypoint, waypoint, {}});
     groups.back().last = waypoint;
     groups.back().poses.insert(groups.back().poses.end(), poses.begin(), poses.end());
+    groups.back().expected += expected[waypoint];
   }
   for (Group& group : groups) std::sort(group.poses.begin(), group.poses.end());
   return groups;
@@ -74,7 +98,8 @@ support::Bitset Predictions::subset(const action::MotionPtr& motion, const suppo
   support::Bitset kept(members.size());
   members.for_each([&](std::size_t pose) {
     const std::size_t at = first_contact(motion, pose);
-    if (at >= first && at <= last) kept.set(pose);
+    const auto is_within = [&](std::size_t waypoint) { return waypoint >= first && waypoint <= last; };
+    if (is_within(at) || (at == motion->path.size() && is_within(grazed(motion, pose)))) kept.set(pose);
   });
   return kept;
 }

@@ -12,7 +12,8 @@ namespace tactus::solver {
 /// Poses of which a motion's outcome says nothing more than that they are first touched at `first` to `last`.
 struct Group {
   std::size_t first = 0, last = 0;  ///< waypoints; the path's size for those that are not touched
-  std::vector<std::size_t> poses;   ///< ascending
+  std::vector<std::size_t> poses;   ///< that may have given it, ascending
+  double expected = 0.0;            ///< how many of them: those that it grazes count half, and half as not touched
 };
 
 /// As far as a contact tells some poses apart: were `count` of them laid out evenly in so many dimensions, a contact
@@ -23,13 +24,19 @@ std::size_t least_group(std::size_t count, int dimensions);
 /// Where each of a planning call's poses is first touched on each motion, computed once. One thread.
 class Predictions {
  public:
-  /// `blur`: m before a reported stop within which the contact may lie.
-  Predictions(std::shared_ptr<const action::Task> task, std::vector<geometry::Pose> poses, double blur = 0.0)
-      : task_(std::move(task)), poses_(std::move(poses)), blur_(blur) {}
+  /// `blur`: m before a reported stop within which the contact may lie. `misses`: m by which each pose may be off; the
+  /// target counts as touched where the robot goes deeper into it than that, but for insertions: a pose that grazes the
+  /// robot where it is would be touched by whatever it does next. Empty: none is off.
+  ///
+  /// A small motion grazes a target into which it does not go by half the blur, and to which it comes as near as the
+  /// blur: one that goes along what the robot has just touched, mostly. Whether that ends in a contact says nothing of
+  /// use about where the target is.
+  Predictions(std::shared_ptr<const action::Task> task, std::vector<geometry::Pose> poses, double blur = 0.0,
+              std::vector<double> misses = {});
 
   const std::vector<geometry::Pose>& poses() const { return poses_; }
 
-  /// The waypoint of the first contact; the path's size if there is none.
+  /// The waypoint of the first contact that counts; the path's size if there is none.
   std::size_t first_contact(const action::MotionPtr& motion, std::size_t pose);
 
   /// The same of every pose.
@@ -55,11 +62,14 @@ class Predictions {
   };
 
   Row& row(const action::MotionPtr& motion);
+  bool may_graze(const action::MotionPtr& motion) const { return blur_ > 0.0 && !motion->anchored; }
+  std::size_t grazed(const action::MotionPtr& motion, std::size_t pose);
   std::size_t first_near(const action::MotionPtr& motion, std::size_t pose);
   bool are_mostly_near(const action::MotionPtr& motion, const std::vector<std::size_t>& poses, std::size_t waypoint);
 
   std::shared_ptr<const action::Task> task_;
   std::vector<geometry::Pose> poses_;
+  std::vector<double> misses_;  ///< by pose
   double blur_;
   std::unordered_map<const action::Motion*, Row> rows_;
 };

@@ -23,9 +23,10 @@ struct Outcome {
   std::size_t waypoint = 0;
   std::size_t last = 0;  ///< the same, or a later one: first contact at a waypoint up to this one
   double probability = 0.0;
-  double cost = 0.0;   ///< of the motion up to there, the way to its start and back to the last free waypoint
-  bool goal = false;   ///< the successor needs nothing more; on voxels an estimate: it is expected to be handed over
-  Values heuristic{};  ///< of the successor; 0 at the goal
+  double cost = 0.0;      ///< of the motion up to there, the way to its start and back to the last free waypoint
+  bool goal = false;      ///< the successor needs nothing more; on voxels an estimate: it is expected to be handed over
+  Values heuristic{};     ///< of the successor; 0 at the goal
+  double possible = 0.0;  ///< share of the belief that is left then; 0: the probability, as where outcomes are certain
 };
 
 /// A motion weighed at a belief. The outcomes' probabilities sum to one.
@@ -35,7 +36,7 @@ struct Choice {
   double expected_cost() const;  ///< C(b, a)
   double contact_probability() const;
   double goal_probability() const;
-  double information() const;  ///< expected bits by which the outcomes split the belief
+  double information() const;  ///< expected bits by which the belief gets smaller
 };
 
 /// What a bit is worth to h_inad: a half more than what the motion with the best rate of expected bits to expected cost

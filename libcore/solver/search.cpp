@@ -41,7 +41,8 @@ double Choice::goal_probability() const {
 double Choice::information() const {
   double bits = 0.0;
   for (const Outcome& outcome : outcomes)
-    if (outcome.probability > 0.0) bits -= outcome.probability * std::log2(outcome.probability);
+    if (outcome.probability > 0.0)
+      bits -= outcome.probability * std::log2(outcome.possible > 0.0 ? outcome.possible : outcome.probability);
   return bits;
 }
 

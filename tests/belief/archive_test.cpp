@@ -90,7 +90,7 @@ void expect_acts_alike(Belief a, Belief b) {
   for (int i = 0; i < 3; ++i) {
     if (a.phase() == Phase::poses) {
       Rng one(5), two(5);
-      const auto of_a = a.draw(10, one), of_b = b.draw(10, two);
+      const auto of_a = belief::poses_of(a.draw(10, one)), of_b = belief::poses_of(b.draw(10, two));
       ASSERT_EQ(of_a.size(), of_b.size());
       for (std::size_t p = 0; p < of_a.size(); ++p) EXPECT_EQ(of_a[p].matrix(), of_b[p].matrix());
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "belief/episode.hpp"
@@ -148,7 +149,7 @@ TEST(Cells, DrawnPosesLieInCellsAndReproduceTheHistoryOrComeNearButForAnEighth) 
   constexpr std::size_t count = 21;
   int full = 0;
   observe(19, 8, [&](const Belief& belief, const PoseVector&) {
-    const std::vector<Pose> poses = belief.draw(count, rng);
+    const std::vector<Pose> poses = belief::poses_of(belief.draw(count, rng));
     ASSERT_FALSE(poses.empty());
     ASSERT_LE(poses.size(), count);
     for (const Pose& pose : poses) ASSERT_TRUE(belief.contains(pose));
@@ -165,6 +166,50 @@ TEST(Cells, DrawnPosesLieInCellsAndReproduceTheHistoryOrComeNearButForAnEighth) 
     full += static_cast<std::size_t>(exact) == poses.size() && poses.size() > count / 3;
   });
   EXPECT_GT(full, 3);
+}
+
+TEST(Cells, DrawnPosesSayHowFarTheyAreOff) {
+  Rng rng(29);
+  int exact = 0;
+  observe(19, 8, [&](const Belief& belief, const PoseVector&) {
+    for (const belief::Drawn& drawn : belief.draw(21, rng)) {
+      ASSERT_GE(drawn.miss, 0.0);
+      ASSERT_EQ(drawn.miss == 0.0, belief::reproduces(task(), belief.history(), drawn.pose)) << drawn.miss;
+      exact += drawn.miss == 0.0;
+    }
+  });
+  EXPECT_GT(exact, 80);
+}
+
+/// After motions that met nothing the poses drawn are spread as those are that a plain draw leaves: none crowd beside
+/// what was swept. Asked of the share that comes within two millimetres of it.
+TEST(Cells, DrawnPosesDoNotCrowdBesideWhatWasSwept) {
+  constexpr double beside = 0.002;
+  Rng rng(30);
+  double drawn_beside = 0.0, plain_beside = 0.0, drawn_count = 0.0, plain_count = 0.0;
+  for (std::uint64_t seed = 41; seed < 71; ++seed) {
+    Episode episode(model(), seed);
+    for (int i = 0; i < 3; ++i) episode.step();
+    const std::vector<belief::Trace>& history = episode.belief.history();
+    if (std::any_of(history.begin(), history.end(), [](const belief::Trace& trace) { return trace.contact; })) continue;
+    const auto is_beside = [&](const Pose& pose) {
+      return std::any_of(history.begin(), history.end(), [&](const belief::Trace& trace) {
+        return task().target_contact().first_within(trace.bodies, pose, beside, 0).has_value();
+      });
+    };
+    for (const belief::Drawn& drawn : episode.belief.draw(200, rng))
+      ++drawn_count, drawn_beside += is_beside(drawn.pose);
+    for (int i = 0; i < 2000; ++i)
+      if (const Pose pose = task().scene().prior.sample(rng); belief::reproduces(task(), history, pose))
+        ++plain_count, plain_beside += is_beside(pose);
+  }
+  ASSERT_GT(drawn_count, 1000.0);
+  const double share = plain_beside / plain_count;
+  EXPECT_NEAR(drawn_beside / drawn_count, share, 4.0 * std::sqrt(share * (1.0 - share) / drawn_count) + 1e-9);
+}
+
+TEST(Cells, BitsAreThoseOfTheSummary) {
+  observe(23, 8, [](const Belief& belief, const PoseVector&) { EXPECT_EQ(belief.bits(), belief.summary().bits); });
 }
 
 /// Boxes of cells are asked before cells: what that drops beyond the cells' own answers must hold no pose that would

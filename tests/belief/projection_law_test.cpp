@@ -54,8 +54,8 @@ TEST(Projected, ExactPosesGiveTheWholeHistoryAndAllLieInThePrior) {
         const auto at = belief::projected(task(), episode.belief.history(), from, millimetre);
         if (!at) continue;
         ASSERT_TRUE(task().scene().prior.contains(at->pose));
-        ASSERT_EQ(at->exact, gave(episode.belief.history(), geometry::pose_from(at->pose)));
-        exact += at->exact;
+        ASSERT_EQ(at->exact(), gave(episode.belief.history(), geometry::pose_from(at->pose)));
+        exact += at->exact();
         ++found;
       }
     }
@@ -71,7 +71,7 @@ TEST(Projected, WhatGivesTheHistoryStaysWhereItIs) {
     for (int i = 0; i < 6; ++i) {
       episode.step();
       const auto at = belief::projected(task(), episode.belief.history(), episode.truth, 0.0);
-      ASSERT_TRUE(at && at->exact);
+      ASSERT_TRUE(at && at->exact());
       for (std::size_t d = 0; d < 6; ++d) EXPECT_NEAR(at->pose[d], episode.truth[d], 1e-12);
     }
   }
@@ -88,7 +88,7 @@ TEST(Projected, MostSeedsNearTheTruthComeToAgree) {
       for (int k = 0; k < 8; ++k, ++tried) {
         const auto at =
             belief::projected(task(), episode.belief.history(), near(episode.truth, millimetre, 0.01, rng), millimetre);
-        exact += at && at->exact;
+        exact += at && at->exact();
       }
     }
   }

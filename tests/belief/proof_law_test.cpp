@@ -29,7 +29,7 @@ std::vector<PoseVector> poses_of(const Belief& belief, int tried, Rng& rng) {
   for (int i = 0; i < tried; ++i) {
     const PoseVector v = belief.cells().draw_in(belief.cells().draw_cell(rng), rng);
     if (const auto found = belief::projected(task(), belief.history(), v, 0.0);
-        found && found->exact && belief.contains(geometry::pose_from(found->pose)))
+        found && found->exact() && belief.contains(geometry::pose_from(found->pose)))
       poses.push_back(found->pose);
   }
   return poses;

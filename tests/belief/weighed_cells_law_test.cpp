@@ -160,10 +160,10 @@ TEST(WeighedCells, FindTheContactThatWasNone) {
 TEST(WeighedCells, DrawPosesOfThePrior) {
   for_episodes(41, 2, 5, [](Episode& episode) {
     Rng rng(7), same(7);
-    const std::vector<Pose> poses = episode.belief.draw(30, rng);
+    const std::vector<Pose> poses = belief::poses_of(episode.belief.draw(30, rng));
     EXPECT_EQ(poses.size(), 30u);
     for (const Pose& pose : poses) EXPECT_TRUE(episode.belief.task().scene().prior.contains(pose, 1e-6));
-    const std::vector<Pose> again = episode.belief.draw(30, same);
+    const std::vector<Pose> again = belief::poses_of(episode.belief.draw(30, same));
     for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(poses[i].matrix(), again[i].matrix());
   });
 }

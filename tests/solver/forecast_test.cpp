@@ -83,7 +83,7 @@ TEST(Forecast, OnPosesIsTheShareOfThoseDrawn) {
     const belief::Belief belief = random_belief(Kind::particles, rng);
     const action::Action action = random_action(*task(), library, belief.configuration(), rng);
     Rng draws(7), same_draws(7);
-    const std::vector<Pose> poses = belief.draw(particles, draws);
+    const std::vector<Pose> poses = belief::poses_of(belief.draw(particles, draws));
     std::vector<double> expected(action.path.size() + 1, 0.0);
     for (const Pose& pose : poses)
       ++expected[task()->target_contact().first_contact(action.bodies, pose).value_or(action.path.size())];

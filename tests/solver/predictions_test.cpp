@@ -169,6 +169,61 @@ TEST(Split, TellsApartWhatIsTouchedFartherApartThanTheBlur) {
   EXPECT_GT(compared, 20);
 }
 
+/// Poses that a small motion only grazes may be touched or not: they are in both groups, half in each.
+TEST(Split, CountsWhatIsGrazedHalfAsTouchedAndHalfAsNot) {
+  constexpr double blur = 0.001;
+  Rng rng(6);
+  action::ActionLibrary library(*task());
+  int grazed = 0;
+  for (int i = 0; i < 60; ++i) {
+    const action::MotionPtr motion = motion_of(random_action(*task(), library, task()->scene().start, rng));
+    const std::size_t untouched = motion->path.size();
+    Predictions blurred = random_predictions(rng, blur);
+    const Bitset members = random_members(rng);
+    std::vector<int> in(poses, 0);
+    double expected = 0.0;
+    for (const Group& group : blurred.split(motion, members)) {
+      expected += group.expected;
+      const Bitset subset = blurred.subset(motion, members, group.first, group.last);
+      ASSERT_EQ(subset.count(), group.poses.size());
+      for (const std::size_t pose : group.poses) {
+        ASSERT_TRUE(subset.test(pose));
+        ++in[pose];
+      }
+    }
+    EXPECT_NEAR(expected, static_cast<double>(members.count()), 1e-9);
+    for (std::size_t pose = 0; pose < poses; ++pose) {
+      const contact::TargetContact& target = task()->target_contact();
+      const auto within = [&](double reach) {
+        return target.first_within(motion->bodies, blurred.poses()[pose], reach, 1).value_or(untouched) < untouched;
+      };
+      const bool is_grazed = within(blur) && !within(target.margin() - 0.5 * blur);
+      ASSERT_EQ(in[pose], members.test(pose) ? 1 + is_grazed : 0);
+      grazed += is_grazed;
+    }
+  }
+  EXPECT_GT(grazed, 20);
+}
+
+/// A pose that is a little off, and so in touch with the robot where it is, is not touched by whatever comes next.
+TEST(FirstContact, CountsWhereTheRobotGoesDeeperThanAPoseIsOff) {
+  constexpr double off = 0.002;
+  Rng rng(7);
+  action::ActionLibrary library(*task());
+  int later = 0;
+  for (int i = 0; i < 60; ++i) {
+    const action::MotionPtr motion = motion_of(random_action(*task(), library, task()->scene().start, rng));
+    const std::vector<Pose> drawn = random_predictions(rng).poses();
+    Predictions exact(task(), drawn), rough(task(), drawn, 0.0, std::vector<double>(drawn.size(), off));
+    for (std::size_t pose = 0; pose < poses; ++pose) {
+      ASSERT_EQ(exact.first_contact(motion, pose), first_contact(*motion, drawn[pose]));
+      ASSERT_GE(rough.first_contact(motion, pose), exact.first_contact(motion, pose));
+      later += rough.first_contact(motion, pose) > exact.first_contact(motion, pose);
+    }
+  }
+  EXPECT_GT(later, 20);
+}
+
 TEST(LeastGroup, IsHalfOfWhatAContactLeavesOfAnEvenLayout) {
   EXPECT_EQ(solver::least_group(100, 2), 5u);
   EXPECT_EQ(solver::least_group(64, 3), 8u);

@@ -55,9 +55,9 @@ belief::Belief random_belief(Kind kind, Rng& rng) {
 
 Tracked on_poses(Rng& rng) {
   const belief::Belief belief = random_belief(Kind::particles, rng);
-  const std::vector<Pose> poses = belief.draw(40, rng);
-  auto problem = std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()), poses,
-                                                       belief.summary().bits, 0.035);
+  const std::vector<Pose> poses = belief::poses_of(belief.draw(40, rng));
+  auto problem = std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
+                                                       solver::Predictions(task(), poses), belief.bits(), 0.035);
   return {problem->start(belief.configuration()), poses, true};
 }
 
@@ -297,8 +297,8 @@ TEST(Heuristics, AdmissibleIsAtMostTheCostOfAnAttemptThatSeatsEveryPose) {
     v[1] += rng.uniform(-1.5e-4, 1.5e-4), v[2] += rng.uniform(-1.5e-4, 1.5e-4), v[3] += rng.uniform(-0.012, 0.012);
     poses.push_back(geometry::pose_from(v));
   }
-  auto problem = std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()), poses,
-                                                       5.0, 0.035);
+  auto problem = std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
+                                                       solver::Predictions(task(), poses), 5.0, 0.035);
   int attempts = 0;
   JointVector q = task()->scene().start;
   for (int round = 0; round < 2; ++round) {

@@ -139,8 +139,8 @@ TEST(RatePolicy, CostsTheSameWheneverAsked) {
 }
 
 BeliefStatePtr bounded_start(const std::vector<Pose>& poses) {
-  return std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()), poses, 5.0,
-                                               0.035, SecondValue::upper_bound)
+  return std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
+                                               solver::Predictions(task(), poses), 5.0, 0.035, SecondValue::upper_bound)
       ->start(task()->scene().start);
 }
 

@@ -33,7 +33,8 @@ std::vector<Pose> alike(double y = 0.0) {
 }
 
 BeliefStatePtr start(const TaskPtr& task, const std::vector<Pose>& poses) {
-  return std::make_shared<solver::PoseProblem>(task, std::make_shared<action::ActionLibrary>(*task), poses, 2.0, 0.035)
+  return std::make_shared<solver::PoseProblem>(task, std::make_shared<action::ActionLibrary>(*task),
+                                               solver::Predictions(task, poses), 2.0, 0.035)
       ->start(task->scene().start);
 }
 
