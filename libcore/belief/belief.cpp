@@ -20,12 +20,12 @@ constexpr double weighed_radius = 0.0008;   // m, of those
 constexpr action::Sensing suspected{
     .stopping_distance = 0.002, .encoder_error = 0.0001, .missed_contacts = 0.02, .false_contacts = 0.02};
 
-constexpr std::size_t parts_asked = 400;     // whether they are seated
-constexpr std::size_t tests_to_look = 5;     // of parts when cells are looked into, for each cell there is room for;
-constexpr std::size_t tests_to_prove = 100;  // and when that proves that the tool is seated
-constexpr std::size_t crowded = 5;           // cells for each there is room for: no more are looked into
-constexpr double hardly_less = 0.97;         // of the weight, left by an observation that told next to nothing
-constexpr std::uint32_t patience = 3;        // such observations in a row
+constexpr std::size_t parts_asked = 400;       // whether they are seated
+constexpr std::size_t tests_to_look = 100000;  // of parts when cells are looked into
+constexpr std::size_t tests_to_prove = 100;    // the same, for each cell there is room for, to prove that it is seated
+constexpr std::size_t crowded = 5;             // cells for each there is room for: no more are looked into
+constexpr double hardly_less = 0.97;           // of the weight, left by an observation that told next to nothing
+constexpr std::uint32_t patience = 3;          // such observations in a row
 
 bool errs(const action::Sensing& sensing) { return sensing.missed_contacts > 0.0 || sensing.false_contacts > 0.0; }
 
@@ -163,7 +163,7 @@ bool Belief::look_closer(const Belief& before) {
 
 /// Unless that takes too long.
 Looked Belief::look_closer(double radius) {
-  const std::size_t room = model_->options.cells.most, most_tests = tests_to_look * room;
+  const std::size_t room = model_->options.cells.most, most_tests = tests_to_look;
   if (cells_->coarsest() <= radius || cells_->size() > crowded * room) return Looked::gave_up;
   support::Rng rng(fingerprint(history_, history_.size()));
   if (cells_->estimated_tests(task(), history_, radius, rng) > static_cast<double>(most_tests)) return Looked::gave_up;

@@ -80,11 +80,21 @@ std::vector<Group> Predictions::split(const action::MotionPtr& motion, const sup
     touched[at].push_back(pose);
     if (or_at != at) touched[or_at].push_back(pose);
   });
+  const auto is_sure = [&](std::size_t waypoint, const std::vector<std::size_t>& poses) {
+    return std::any_of(poses.begin(), poses.end(),
+                       [&](std::size_t pose) { return first_contact(motion, pose) == waypoint; });
+  };
   std::vector<Group> groups;
+  bool holds_sure = false;
   for (auto& [waypoint, poses] : touched) {
+    const bool adds_sure = is_sure(waypoint, poses);
     if (waypoint == untouched || groups.empty() ||
-        (groups.back().poses.size() >= least && !are_mostly_near(motion, poses, groups.back().first)))
+        (holds_sure && adds_sure && groups.back().poses.size() >= least &&
+         !are_mostly_near(motion, poses, groups.back().first))) {
       groups.push_back({waypoint, waypoint, {}});
+      holds_sure = false;
+    }
+    holds_sure = holds_sure || adds_sure;
     groups.back().last = waypoint;
     groups.back().poses.insert(groups.back().poses.end(), poses.begin(), poses.end());
     groups.back().expected += expected[waypoint];

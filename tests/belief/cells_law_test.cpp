@@ -147,15 +147,15 @@ TEST(Cells, WhatIsDroppedHoldsNoPoseThatReproducesTheHistory) {
 TEST(Cells, DrawnPosesLieInCellsAndReproduceTheHistoryOrComeNearButForAnEighth) {
   Rng rng(9);
   constexpr std::size_t count = 21;
-  int full = 0;
+  int enough = 0;
   observe(19, 8, [&](const Belief& belief, const PoseVector&) {
-    const std::vector<Pose> poses = belief::poses_of(belief.draw(count, rng));
+    const std::vector<belief::Drawn> drawn = belief.draw(count, rng);
+    const std::vector<Pose> poses = belief::poses_of(drawn);
     ASSERT_FALSE(poses.empty());
     ASSERT_LE(poses.size(), count);
     for (const Pose& pose : poses) ASSERT_TRUE(belief.contains(pose));
-    const auto exact = std::count_if(poses.begin(), poses.end(), [&](const Pose& pose) {
-      return belief::reproduces(task(), belief.history(), pose);
-    });
+    const auto close =
+        std::count_if(drawn.begin(), drawn.end(), [](const belief::Drawn& one) { return one.miss <= 0.00025; });
     const double near = std::max(0.001, 0.15 * belief.cells().coarsest());
     const auto agreeing = std::count_if(poses.begin(), poses.end(), [&](const Pose& pose) {
       return belief::may_reproduce(task(), belief.history(), pose, 1.5 * near);
@@ -163,9 +163,9 @@ TEST(Cells, DrawnPosesLieInCellsAndReproduceTheHistoryOrComeNearButForAnEighth) 
     if (poses.size() > count / 3) {
       ASSERT_GE(static_cast<std::size_t>(agreeing) + count / 8, poses.size());
     }
-    full += static_cast<std::size_t>(exact) == poses.size() && poses.size() > count / 3;
+    enough += static_cast<std::size_t>(close) >= count / 3;
   });
-  EXPECT_GT(full, 3);
+  EXPECT_GE(enough, 7);
 }
 
 TEST(Cells, DrawnPosesSayHowFarTheyAreOff) {
@@ -186,7 +186,7 @@ TEST(Cells, DrawnPosesSayHowFarTheyAreOff) {
 TEST(Cells, DrawnPosesDoNotCrowdBesideWhatWasSwept) {
   constexpr double beside = 0.002;
   Rng rng(30);
-  double drawn_beside = 0.0, plain_beside = 0.0, drawn_count = 0.0, plain_count = 0.0;
+  double difference = 0.0, variance = 0.0, episodes = 0.0;
   for (std::uint64_t seed = 41; seed < 71; ++seed) {
     Episode episode(model(), seed);
     for (int i = 0; i < 3; ++i) episode.step();
@@ -197,15 +197,20 @@ TEST(Cells, DrawnPosesDoNotCrowdBesideWhatWasSwept) {
         return task().target_contact().first_within(trace.bodies, pose, beside, 0).has_value();
       });
     };
-    for (const belief::Drawn& drawn : episode.belief.draw(200, rng))
-      ++drawn_count, drawn_beside += is_beside(drawn.pose);
+    double drawn_beside = 0.0, plain_beside = 0.0, plain_count = 0.0;
+    const std::vector<belief::Drawn> drawn = episode.belief.draw(200, rng);
+    for (const belief::Drawn& one : drawn) drawn_beside += is_beside(one.pose);
     for (int i = 0; i < 2000; ++i)
       if (const Pose pose = task().scene().prior.sample(rng); belief::reproduces(task(), history, pose))
         ++plain_count, plain_beside += is_beside(pose);
+    const double share = plain_beside / plain_count;
+    const auto count = static_cast<double>(drawn.size());
+    difference += drawn_beside / count - share;
+    variance += share * (1.0 - share) * (1.0 / count + 1.0 / plain_count);
+    ++episodes;
   }
-  ASSERT_GT(drawn_count, 1000.0);
-  const double share = plain_beside / plain_count;
-  EXPECT_NEAR(drawn_beside / drawn_count, share, 4.0 * std::sqrt(share * (1.0 - share) / drawn_count) + 1e-9);
+  ASSERT_GE(episodes, 5.0);
+  EXPECT_LE(std::abs(difference), 4.0 * std::sqrt(variance)) << "in all of " << episodes << " episodes";
 }
 
 TEST(Cells, BitsAreThoseOfTheSummary) {

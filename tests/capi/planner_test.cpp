@@ -114,8 +114,18 @@ TEST(Planner, VerdictsHaveNames) {
   EXPECT_STREQ(tactus_verdict_name(4), "unknown");
 }
 
+shelf::Planner searching() {
+  tactus_planner_options given = options();
+  given.solver = TACTUS_SOLVER_RTDP_BEL;
+  given.budget_seconds = shelf::infinity;
+  given.budget_expansions = 2;
+  tactus_planner* made = nullptr;
+  expect_ok(tactus_planner_create(shelf::scenario(), &given, &made));
+  return shelf::Planner(made);
+}
+
 TEST(Planner, TellsWhatItWeighedBestFirst) {
-  const shelf::Planner planner = shelf::planner();
+  const shelf::Planner planner = searching();
   EXPECT_EQ(alternative_count(planner), 0u);
   const shelf::Action action = shelf::query(planner, shelf::belief());
   tactus_action_properties is{};

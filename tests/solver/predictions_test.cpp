@@ -37,8 +37,10 @@ Bitset random_members(Rng& rng) {
   return members;
 }
 
-action::MotionPtr motion_of(const action::Action& made) {
+/// Anchored: none that grazes.
+action::MotionPtr motion_of(const action::Action& made, bool anchored = false) {
   action::Motion motion;
+  motion.anchored = anchored;
   motion.path = made.path;
   return action::finished(*task(), motion);
 }
@@ -149,7 +151,7 @@ TEST(Split, TellsApartWhatIsTouchedFartherApartThanTheBlur) {
   action::ActionLibrary library(*task());
   int compared = 0;
   for (int i = 0; i < 60; ++i) {
-    const action::MotionPtr motion = motion_of(random_action(*task(), library, task()->scene().start, rng));
+    const action::MotionPtr motion = motion_of(random_action(*task(), library, task()->scene().start, rng), true);
     Predictions blurred = random_predictions(rng, blur);
     const std::vector<Group> groups = blurred.split(motion, Bitset(poses, true));
     for (std::size_t g = 1; g < groups.size(); ++g) {
