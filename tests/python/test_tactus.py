@@ -150,7 +150,7 @@ def test_a_belief_tells_its_history_and_its_modes(scenario, action):
 
 
 def test_a_planner_says_why(scenario):
-    planner, belief = tactus.Planner(scenario, expansions=EXPANSIONS), tactus.Belief(scenario)
+    planner, belief = tactus.Planner(scenario, solver="rtdp-bel", expansions=EXPANSIONS), tactus.Belief(scenario)
     assert planner.alternatives() == []
     action = planner.query(belief)
     weighed = planner.alternatives()
@@ -163,7 +163,7 @@ def test_a_planner_says_why(scenario):
         assert sum(o.probability * o.cost for o in a.outcomes) == pytest.approx(a.motion_cost)
         assert sum(o.probability for o in a.outcomes if o.goal) == pytest.approx(a.goal_probability)
         assert all(o.tool.shape == (3,) for o in a.outcomes)
-    unasked = tactus.Planner(scenario, expansions=EXPANSIONS)
+    unasked = tactus.Planner(scenario, solver="rtdp-bel", expansions=EXPANSIONS)
     unasked.query(belief)
     belief.step(action, tactus.Observation(False, action.waypoints[-1]))
     assert planner.query(belief).id == unasked.query(belief).id
