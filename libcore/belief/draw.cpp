@@ -21,6 +21,14 @@ constexpr std::size_t unproved_share = 8;     // of them anywhere in a cell, for
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
 constexpr std::size_t tries_per_pose = 2;     // of those that come near, to agree with the history
 
+/// A motion that met nothing would have met it. Such a pose is left out: moved out of the way it would be just beside
+/// what was swept, as would all others like it, and promise a contact to whatever the robot does next.
+bool was_missed(const Task& task, const std::vector<Trace>& history, const Pose& pose) {
+  return std::any_of(history.begin(), history.end(), [&](const Trace& trace) {
+    return !trace.contact && !trace.doubted && !reproduces(task, trace, pose);
+  });
+}
+
 /// Poses of a belief for planning, by what is cheapest where it works.
 class Draw {
  public:
@@ -44,6 +52,9 @@ class Draw {
   }
 
  private:
+  bool was_missed(const PoseVector& v) const {
+    return belief::was_missed(belief_.task(), belief_.history(), geometry::pose_from(v));
+  }
   std::size_t size() const { return close_.size() + near_poses_.size(); }
   bool lacks(std::size_t wanted) const { return size() < wanted && deadline_.used_fraction() < 0.5; }
 
@@ -51,15 +62,6 @@ class Draw {
   void add_projected(const PoseVector& from) {
     if (const auto found = projected(belief_.task(), belief_.history(), from, near_)) add(*found);
   }
-  /// A motion that met nothing would have met it. Such a pose is left out: moved out of the way it would be just beside
-  /// what was swept, as would all others like it, and promise a contact to whatever the robot does next.
-  bool was_missed(const PoseVector& v) const {
-    const Pose pose = geometry::pose_from(v);
-    return std::any_of(belief_.history().begin(), belief_.history().end(), [&](const Trace& trace) {
-      return !trace.contact && !trace.doubted && !reproduces(belief_.task(), trace, pose);
-    });
-  }
-
   /// A pose from a cell, brought into agreement with the contacts unless it can't be far from that. False if a motion
   /// that met nothing rules it out.
   bool add_from(const Cell& cell) {
@@ -183,7 +185,7 @@ std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng, co
   std::size_t tried = 0;
   for (std::size_t i = 0; i < samples_per_pose * count && tried < tries_per_pose * count && lacks(); ++i) {
     const Pose pose = task().scene().prior.sample(rng);
-    if (!may_reproduce(task(), history_, pose, radius)) continue;
+    if (!may_reproduce(task(), history_, pose, radius) || was_missed(task(), history_, pose)) continue;
     ++tried;
     if (const auto found = projected(task(), history_, geometry::pose_vector(pose), least_near))
       poses.push_back(geometry::pose_from(found->pose));
