@@ -13,9 +13,9 @@ namespace tactus::solver {
 namespace {
 
 constexpr std::uint64_t own_stream = 0x706c616e;  // apart from whatever else begins with the same seed
-constexpr double noticeable_bits = 0.1;           // by which a contact makes the belief smaller, if it tells anything,
-constexpr double swept_bits = 0.005;              // and a motion that met nothing
-constexpr int patience = 3;                       // queries in a stage in which the belief hardly shrank
+constexpr double noticeable_bits = 0.1;  // by which an observation makes the belief smaller, if it tells anything;
+constexpr double swept_bits = 0.005;     // and as long as nothing was met
+constexpr int patience = 3;              // queries in a stage in which the belief hardly shrank
 constexpr int stages = 3;
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
@@ -97,7 +97,8 @@ void Planner::note_fruitless(const belief::Belief& belief) {
     standing_.fruitless.push_back(history.back().action_id);
   const double bits =
       std::log2(belief.phase() == belief::Phase::voxels ? static_cast<double>(size) : belief.cells().weight());
-  const bool met = !history.empty() && history.back().contact;
+  const bool met =
+      std::any_of(history.begin(), history.end(), [](const belief::Trace& trace) { return trace.contact; });
   const bool shrank = is_first || bits < standing_.bits - (met ? noticeable_bits : swept_bits);
   standing_.stalls = shrank ? 0 : standing_.stalls + 1;
   if (shrank) standing_.bits = bits;
