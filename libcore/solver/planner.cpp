@@ -20,6 +20,10 @@ constexpr int stages = 3;
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
+bool has_met_something(const std::vector<belief::Trace>& history) {
+  return std::any_of(history.begin(), history.end(), [](const belief::Trace& trace) { return trace.contact; });
+}
+
 }  // namespace
 
 /// The partial policy of the last planning call, and the action that was handed out from it.
@@ -97,9 +101,7 @@ void Planner::note_fruitless(const belief::Belief& belief) {
     standing_.fruitless.push_back(history.back().action_id);
   const double bits =
       std::log2(belief.phase() == belief::Phase::voxels ? static_cast<double>(size) : belief.cells().weight());
-  const bool met =
-      std::any_of(history.begin(), history.end(), [](const belief::Trace& trace) { return trace.contact; });
-  const bool shrank = is_first || bits < standing_.bits - (met ? noticeable_bits : swept_bits);
+  const bool shrank = is_first || bits < standing_.bits - (has_met_something(history) ? noticeable_bits : swept_bits);
   standing_.stalls = shrank ? 0 : standing_.stalls + 1;
   if (shrank) standing_.bits = bits;
   standing_.q = belief.configuration();
@@ -217,8 +219,9 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   };
   for (auto choice = next(); choice; choice = next()) {
     const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
-    auto made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited,
-                                  touches.empty() || stage() == Stage::all ? motion::JointPath{} : belief.way_back());
+    auto made = library_->realise(
+        belief.configuration(), *choices[*choice].motion, unlimited,
+        stage() == Stage::all || !has_met_something(belief.history()) ? motion::JointPath{} : belief.way_back());
     if (made &&
         std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
       verdicts[*choice] = Verdict::chosen;
