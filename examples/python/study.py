@@ -33,7 +33,7 @@ SETTINGS = [
     Setting("base_4d", "base_4d", ["--belief", "particles"], 200, 45),
     Setting("sim_5d", "sim_5d", ["--belief", "particles"], 200, 120),
     Setting("shelf_3d_told", "shelf_3d_noise", ["--belief", "particles"], 100, 180),
-    Setting("shelf_3d_untold", "shelf_3d", ["--belief", "particles", *NOISE], 100, 180),
+    Setting("shelf_3d_untold", "shelf_3d", ["--belief", "particles", "--solver", "rtdp-bel", *NOISE], 100, 180),
 ]
 
 
