@@ -163,12 +163,12 @@ bool Belief::look_closer(const Belief& before) {
 
 /// Unless that takes too long.
 Looked Belief::look_closer(double radius) {
-  const std::size_t room = model_->options.cells.most, most_tests = tests_to_look;
+  const std::size_t room = model_->options.cells.most;
   if (cells_->coarsest() <= radius || cells_->size() > crowded * room) return Looked::gave_up;
   support::Rng rng(fingerprint(history_, history_.size()));
-  if (cells_->estimated_tests(task(), history_, radius, rng) > static_cast<double>(most_tests)) return Looked::gave_up;
+  if (cells_->estimated_tests(task(), history_, radius, rng) > static_cast<double>(tests_to_look)) return Looked::gave_up;
   const auto fine = [&](const Cell& cell) { return cells_->radius(cell) <= radius; };
-  const Looked looked = cells_->look_inside(task(), history_, fine, 2 * most_tests);
+  const Looked looked = cells_->look_inside(task(), history_, fine, 2 * tests_to_look);
   if (looked != Looked::all) return looked;
   standstill_ = 0;
   const bool possible = cells_->refine(task(), history_, [this](const CellBelief&) { return is_seated(); });
