@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numbers>
 
 #include "action/primitives.hpp"
 #include "support/rng.hpp"
@@ -11,7 +12,31 @@ namespace tactus::action {
 namespace {
 
 constexpr std::size_t kept_configurations = 4096;
+constexpr double lattice_pitch = 0.06;  // m
+constexpr double same_configuration = 1e-3;  // rad or m, of every joint
+constexpr double same_stand = 1e-6;
 constexpr double least_retreat = 0.3;  // of the way back along the tool's axis, towards the retreat plane
+
+/// The whole turns of joints nearest to a difference.
+JointVector whole_turns(const JointVector& difference) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  return turn * (difference / turn).array().round().matrix();
+}
+
+/// Whether every link stands where it does at the other.
+bool stands_alike(const robot::RobotModel& robot, const JointVector& a, const JointVector& b) {
+  std::vector<Pose> at_a, at_b;
+  robot::forward(robot, a, at_a);
+  robot::forward(robot, b, at_b);
+  return std::equal(at_a.begin(), at_a.end(), at_b.begin(),
+                    [](const Pose& one, const Pose& other) { return one.isApprox(other, same_stand); });
+}
+
+JointPath shifted(JointPath path, const JointVector& by) {
+  if (by.isZero(0.0)) return path;
+  for (JointVector& q : path) q += by;
+  return path;
+}
 
 }  // namespace
 
@@ -51,6 +76,12 @@ std::vector<MotionPtr> ActionLibrary::primitives_at(const JointVector& q) {
   return primitives_.try_emplace(key, std::move(motions)).first->second;
 }
 
+std::shared_ptr<const Lattice> ActionLibrary::lattice_through(const JointVector& q) {
+  const std::lock_guard lock(mutex_);
+  if (!lattice_ || !lattice_->passes(q)) lattice_ = std::make_shared<const Lattice>(task_, q, lattice_pitch);
+  return lattice_;
+}
+
 /// How far the tool is past the retreat plane, m.
 double ActionLibrary::past_plane(const JointVector& q, const JointVector& start) const {
   const Vector3 axis = task_.frame().base_from_search.linear().col(2);
@@ -63,7 +94,7 @@ JointPath ActionLibrary::as_far_as_plane(const JointPath& way_back, const JointV
   return {way_back.begin(), there == way_back.end() ? there : there + 1};
 }
 
-/// `path` and the way from its end: out along the tool's axis, and across.
+/// `path` and the way from its end: out along the tool's axis, and across, to `start` or whole turns of joints from it.
 JointPath ActionLibrary::lead_in(JointPath path, const JointVector& start, const support::Deadline& deadline) const {
   const double step = task_.options().motion.step;
   const JointVector q = path.back();
@@ -77,16 +108,29 @@ JointPath ActionLibrary::lead_in(JointPath path, const JointVector& start, const
     back.translation() -= retreat / out.dot(axis) * out;
     if (const auto leg = task_.straight_path(q, task_.at_site(here, back), step)) path = joined(std::move(path), *leg);
   }
-  if (const auto across = task_.straight_path(path.back(), goal, step))
-    if ((across->back() - start).cwiseAbs().maxCoeff() < 1e-3) {
+  if (const auto across = task_.straight_path(path.back(), goal, step)) {
+    const JointVector end = start + whole_turns(across->back() - start);
+    if ((across->back() - end).cwiseAbs().maxCoeff() < same_configuration &&
+        stands_alike(*task_.scene().robot, start, end)) {
       JointPath leg = *across;
-      leg.back() = start;
+      leg.back() = end;
       return joined(std::move(path), leg);
     }
+  }
+  return connected(std::move(path), start, deadline);
+}
+
+/// `path` and a planned way from its end; empty if none is found.
+JointPath ActionLibrary::connected(JointPath path, const JointVector& start, const support::Deadline& deadline) const {
   motion::ConnectOptions options;
-  options.step = step;
+  options.step = task_.options().motion.step;
   const auto way = motion::connect(task_.known_world(), path.back(), start, options, deadline);
   return way ? joined(std::move(path), *way) : JointPath{};
+}
+
+bool ActionLibrary::are_inside_limits(const JointPath& path) const {
+  return std::all_of(path.begin(), path.end(),
+                     [&](const JointVector& q) { return robot::inside_limits(*task_.scene().robot, q); });
 }
 
 std::optional<Action> ActionLibrary::realise(const JointVector& q, const Motion& motion,
@@ -94,7 +138,12 @@ std::optional<Action> ActionLibrary::realise(const JointVector& q, const Motion&
   const MotionOptions& options = task_.options().motion;
   if (!motion.anchored) return make_action(task_, motion.kind, motion.path, 0, motion.pace);
   const JointVector& start = motion.path.front();
-  const JointPath lead = lead_in(way_back.empty() ? JointPath{q} : as_far_as_plane(way_back, start), start, deadline);
+  JointPath lead = lead_in(way_back.empty() ? JointPath{q} : as_far_as_plane(way_back, start), start, deadline);
+  JointPath proper = lead.empty() ? motion.path : shifted(motion.path, lead.back() - start);
+  if (!are_inside_limits(proper)) {
+    proper = motion.path;
+    lead = connected(JointPath{q}, start, deadline);
+  }
   if (lead.empty()) return std::nullopt;
   std::vector<motion::PacedSegment> pace{{0, {options.speed, options.acceleration, options.joint_acceleration}}};
   for (motion::PacedSegment segment : motion.pace) {
@@ -102,7 +151,7 @@ std::optional<Action> ActionLibrary::realise(const JointVector& q, const Motion&
     pace.push_back(segment);
   }
   if (lead.size() == 1) pace.erase(pace.begin());
-  Action action = make_action(task_, motion.kind, joined(lead, motion.path), lead.size() - 1, pace);
+  Action action = make_action(task_, motion.kind, joined(lead, proper), lead.size() - 1, pace);
   action.supposed_target = motion.supposed_target;
   return action;
 }

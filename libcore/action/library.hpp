@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 
+#include "action/lattice.hpp"
 #include "action/motion.hpp"
 #include "support/deadline.hpp"
 
@@ -34,6 +35,9 @@ class ActionLibrary {
  public:
   explicit ActionLibrary(const Task& task) : task_(task) {}
 
+  /// Through where the robot stands; kept for as long as it moves along its rows.
+  std::shared_ptr<const Lattice> lattice_through(const JointVector& q);
+
   /// `primitives` from `q`, made once per configuration.
   std::vector<MotionPtr> primitives_at(const JointVector& q);
 
@@ -45,10 +49,13 @@ class ActionLibrary {
 
  private:
   JointPath lead_in(JointPath path, const JointVector& start, const support::Deadline& deadline) const;
+  JointPath connected(JointPath path, const JointVector& start, const support::Deadline& deadline) const;
+  bool are_inside_limits(const JointPath& path) const;
   JointPath as_far_as_plane(const JointPath& way_back, const JointVector& start) const;
   double past_plane(const JointVector& q, const JointVector& start) const;
 
   const Task& task_;
+  std::shared_ptr<const Lattice> lattice_;
   std::mutex mutex_;
   std::map<std::vector<double>, std::vector<MotionPtr>> primitives_;
 };

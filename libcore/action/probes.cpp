@@ -23,14 +23,6 @@ std::vector<double> lines(double low, double high, double spacing, int most) {
   return offsets;
 }
 
-/// Depths of sweeps through a region: the first, and where it goes on for long behind that, others evenly spaced.
-std::vector<double> layers(double first, double depth) {
-  const int more = std::clamp(static_cast<int>(std::lround((depth - first) / layer_spacing)), 0, most_layers - 1);
-  std::vector<double> depths;
-  for (int k = 0; k <= more; ++k) depths.push_back(first + k * (depth - first) / (more + 1));
-  return depths;
-}
-
 /// Tool positions of a sweep along axis `along` (0 or 1) at `across` on the other: over the start, down to `z`, through
 /// the region.
 std::vector<Vector3> sweep_positions(const scene::SearchFrame& frame, const Box& region, int along, double sign,
@@ -66,6 +58,13 @@ std::vector<Pose> on_sites(const Task& task, const std::vector<Vector3>& positio
 }
 
 }  // namespace
+
+std::vector<double> layers(double first, double depth) {
+  const int more = std::clamp(static_cast<int>(std::lround((depth - first) / layer_spacing)), 0, most_layers - 1);
+  std::vector<double> depths;
+  for (int k = 0; k <= more; ++k) depths.push_back(first + k * (depth - first) / (more + 1));
+  return depths;
+}
 
 MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3>& positions, double turn,
                           const JointVector& near) {

@@ -12,6 +12,9 @@ namespace tactus::action {
 /// `near`: the configuration whose posture is kept.
 std::vector<MotionPtr> probes(const Task& task, const geometry::Box& region, const JointVector& near, int most = 7);
 
+/// Depths of sweeps through a region that goes on for `depth` m: the first, and others evenly spaced behind it.
+std::vector<double> layers(double first, double depth);
+
 /// A free straight motion from the retreat plane along the given tool positions (search frame), at the given turn about
 /// the approach axis; null if blocked.
 MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3>& positions, double turn,

@@ -16,8 +16,11 @@ constexpr std::uint64_t own_stream = 0x706c616e;  // apart from whatever else be
 constexpr double noticeable_bits = 0.1;  // by which an observation makes the belief smaller, if it tells anything;
 constexpr double swept_bits = 0.005;     // and as long as nothing was met
 constexpr int patience = 3;              // queries in a stage in which the belief hardly shrank
+constexpr int most_idle = 6;                 // queries in a row whose actions were not to tell anything
 constexpr int stages = 3;
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
+constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
+constexpr std::size_t search_sample = 4;  // times as many poses as long as nothing was met: they are cheap then
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
 bool has_met_something(const std::vector<belief::Trace>& history) {
@@ -83,6 +86,9 @@ const std::vector<Alternative>& Planner::alternatives() const {
   return alternatives_;
 }
 
+/// What was handed out last.
+const Choice& Planner::chosen() const { return policy_->search.choices(policy_->node)[policy_->choice]; }
+
 void Planner::note_fruitless(const belief::Belief& belief) {
   const std::vector<belief::Trace>& history = belief.history();
   const bool goes_on = history.size() >= standing_.observations &&
@@ -101,8 +107,17 @@ void Planner::note_fruitless(const belief::Belief& belief) {
     standing_.fruitless.push_back(history.back().action_id);
   const double bits =
       std::log2(belief.phase() == belief::Phase::voxels ? static_cast<double>(size) : belief.cells().weight());
-  const bool shrank = is_first || bits < standing_.bits - (has_met_something(history) ? noticeable_bits : swept_bits);
-  standing_.stalls = shrank ? 0 : standing_.stalls + 1;
+  const double noticeable = has_met_something(history) ? noticeable_bits : swept_bits;
+  const bool is_handed_out = policy_ && !history.empty() && history.back().action_id == policy_->action_id;
+  const bool was_to_tell = !is_handed_out || policy_->lead > 0 || chosen().information() > noticeable;
+  const bool shrank = is_first || bits < standing_.bits - noticeable;
+  standing_.idle = shrank || was_to_tell ? 0 : standing_.idle + 1;
+  standing_.stalls = shrank ? 0 : standing_.stalls + (was_to_tell || standing_.idle > most_idle);
+  if (is_handed_out && history.back().contact && policy_->lead == 0) {
+    const motion::JointPath& path = chosen().motion->path;
+    standing_.met.emplace_back(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(std::min(history.back().outcome + 1, path.size())));
+  }
+  standing_.halted = !shrank && (standing_.halted || (is_handed_out && history.back().outcome <= policy_->lead));
   if (shrank) standing_.bits = bits;
   standing_.q = belief.configuration();
   standing_.size = size;
@@ -113,7 +128,7 @@ void Planner::note_fruitless(const belief::Belief& belief) {
 /// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed
 /// for it.
 std::optional<int> Planner::followed(const belief::Belief& belief) {
-  if (!policy_ || standing_.stalls >= patience || greedy_of(options_.solver) || belief.history().empty() ||
+  if (!policy_ || is_bounded() || standing_.stalls >= patience || greedy_of(options_.solver) || belief.history().empty() ||
       belief::fingerprint(belief.history(), belief.history().size() - 1) != policy_->history)
     return std::nullopt;
   const belief::Trace& last = belief.history().back();
@@ -139,25 +154,40 @@ Predictions Planner::predictions(const belief::Belief& belief) const {
   return {model_->task, belief::poses_of(poses_), blur, std::move(misses)};
 }
 
+/// Poses to plan on, by all that was seen so far; many as long as nothing was met.
+std::vector<belief::Drawn> Planner::draw(const belief::Belief& belief, const support::Deadline& deadline) {
+  const std::size_t times = is_bounded() && !has_met_something(belief.history()) ? search_sample : 1;
+  const std::size_t most = times * model_->options.particles;
+  if (belief.phase() == belief::Phase::poses) return belief.draw(most, rng_, poses_, deadline);
+  std::vector<belief::Drawn> drawn;
+  for (const geometry::Pose& pose : belief.draw_feasible(most, rng_, deadline)) drawn.push_back({pose, 0.0});
+  return drawn;
+}
+
+BeliefStatePtr Planner::on_voxels(const belief::Belief& belief, const support::Deadline& deadline) {
+  std::vector<geometry::Pose> feasible;
+  if (model_->options.likelihood == belief::Likelihood::calibrated)
+    feasible = belief.draw_feasible(model_->options.particles, rng_, deadline);
+  return std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)
+      ->start(belief.configuration(), belief.voxels());
+}
+
+BeliefStatePtr Planner::on_poses(const belief::Belief& belief) {
+  return std::make_shared<PoseProblem>(model_->task, library_, predictions(belief), belief.bits(),
+                                       options_.cost_per_bit, second_value_of(options_.solver))
+      ->start(belief.configuration());
+}
+
+/// Bounds are of poses: their solver plans on poses from the first, whatever the phase.
 void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
-  BeliefStatePtr start;
-  if (belief.phase() == belief::Phase::voxels) {
-    std::vector<geometry::Pose> feasible;
-    if (model_->options.likelihood == belief::Likelihood::calibrated)
-      feasible = belief.draw_feasible(model_->options.particles, rng_, deadline);
-    start = std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)
-                ->start(belief.configuration(), belief.voxels());
-  } else {
-    if (standing_.stalls > 0 && standing_.stalls % patience == 0) poses_.clear();
-    poses_ = belief.draw(model_->options.particles, rng_, poses_, deadline);
-    start = std::make_shared<PoseProblem>(model_->task, library_, predictions(belief), belief.bits(),
-                                          options_.cost_per_bit, second_value_of(options_.solver))
-                ->start(belief.configuration());
-  }
+  const bool in_phase = belief.phase() == belief::Phase::poses;
+  if (standing_.stalls > 0 && standing_.stalls % patience == 0) poses_.clear();
+  if (in_phase || is_bounded()) poses_ = draw(belief, deadline);
+  const bool has_poses = in_phase || (is_bounded() && !poses_.empty());
   SearchOptions search = search_options(options_);
-  search.bounded = search.bounded && belief.phase() == belief::Phase::poses;
-  policy_ = std::make_unique<Policy>(Policy{Search(std::move(start), search)});
-  if (greedy_of(options_.solver))
+  search.bounded = search.bounded && has_poses;
+  policy_ = std::make_unique<Policy>(Policy{Search(has_poses ? on_poses(belief) : on_voxels(belief, deadline), search)});
+  if (greedy_of(options_.solver) || (search.bounded && !has_met_something(belief.history())))
     policy_->search.expand_start(deadline);
   else
     policy_->search.run(deadline);
@@ -179,9 +209,16 @@ Answer Planner::hand_out(const belief::Belief& belief, int node, std::size_t cho
   return {Answer::Kind::action, std::make_shared<const action::Action>(std::move(made))};
 }
 
-/// While the belief does not shrink: at first nothing is set aside; then small motions about where the robot is; then
-/// attempts too; and then all are tried again.
+/// While the belief does not shrink: at first nothing is set aside; then small motions about where the robot is, and
+/// attempts; then small motions alone; and then all are tried again.
 Planner::Stage Planner::stage() const { return static_cast<Stage>(standing_.stalls / patience % stages); }
+
+/// Whether it goes the way of one that met something, as far as that: a robot that does not err would meet it again.
+bool Planner::is_known(const action::Motion& motion) const {
+  return std::any_of(standing_.met.begin(), standing_.met.end(), [&](const motion::JointPath& met) {
+    return met.size() <= motion.path.size() && std::equal(met.begin(), met.end(), motion.path.begin());
+  });
+}
 
 bool Planner::is_unpromising(const action::Motion& motion) const {
   return (stage() != Stage::all && !motion.anchored) ||
@@ -199,10 +236,18 @@ std::vector<Touch> Planner::touched_in_vain(const belief::Belief& belief) const 
   return touches;
 }
 
+/// Of a motion if nothing is touched.
+double full_cost(const Choice& choice) {
+  double most = 0.0;
+  for (const Outcome& outcome : choice.outcomes) most = std::max(most, outcome.cost);
+  return most;
+}
+
 /// The best motion at a node, made executable; the next best where the robot can't get to its start.
 Answer Planner::act(const belief::Belief& belief, int node, const support::Deadline& deadline) {
-  const Search& search = policy_->search;
+  Search& search = policy_->search;
   const std::vector<Choice>& choices = search.choices(node);
+  std::vector<std::optional<action::Action>> realised(choices.size());
   std::vector<bool> banned(choices.size(), false);
   std::vector<Verdict> verdicts(choices.size(), Verdict::passed_over);
   const auto ban = [&](std::size_t choice, Verdict verdict) {
@@ -210,8 +255,9 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
     verdicts[choice] = verdict;
   };
   const std::vector<Touch> touches = touched_in_vain(belief);
+  const bool does_not_err = belief.sensing().missed_contacts == 0.0 && belief.sensing().false_contacts == 0.0;
   for (std::size_t i = 0; i < choices.size(); ++i)
-    if (is_unpromising(*choices[i].motion) || share_alike(choices[i], touches) > certain) ban(i, Verdict::set_aside);
+    if (is_unpromising(*choices[i].motion) || (does_not_err && is_known(*choices[i].motion)) || share_alike(choices[i], touches) > certain) ban(i, Verdict::set_aside);
   if (std::find(banned.begin(), banned.end(), false) == banned.end()) std::fill(banned.begin(), banned.end(), false);
   const auto next = [&] {
     const auto rule = greedy_of(options_.solver);
@@ -219,11 +265,20 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   };
   for (auto choice = next(); choice; choice = next()) {
     const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
-    auto made = library_->realise(
+    auto made = std::move(realised[*choice]);
+    const bool is_charged = made.has_value();
+    if (!made) made = library_->realise(
         belief.configuration(), *choices[*choice].motion, unlimited,
-        stage() == Stage::all || !has_met_something(belief.history()) ? motion::JointPath{} : belief.way_back());
+        standing_.halted && stage() != Stage::all && has_met_something(belief.history()) ? belief.way_back()
+                                                                                         : motion::JointPath{});
     if (made &&
         std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
+      const double more = made->full_cost - full_cost(choices[*choice]);
+      if (!is_charged && more > least_charge) {
+        search.charge(node, *choice, more);
+        realised[*choice] = std::move(made);
+        continue;
+      }
       verdicts[*choice] = Verdict::chosen;
       policy_->verdicts = std::move(verdicts);
       return hand_out(belief, node, *choice, std::move(*made));

@@ -55,11 +55,17 @@ class Planner {
   std::optional<int> followed(const belief::Belief& belief);
   Answer act(const belief::Belief& belief, int node, const support::Deadline& deadline);
   Answer hand_out(const belief::Belief& belief, int node, std::size_t choice, action::Action made);
-  enum class Stage { all, anchored, probes };  ///< what is tried
+  enum class Stage { all, probes, anchored };  ///< what is tried
   Stage stage() const;
+  const Choice& chosen() const;
+  bool is_known(const action::Motion& motion) const;
   bool is_unpromising(const action::Motion& motion) const;
   std::vector<Touch> touched_in_vain(const belief::Belief& belief) const;
   Predictions predictions(const belief::Belief& belief) const;
+  bool is_bounded() const { return second_value_of(options_.solver) == SecondValue::upper_bound; }
+  std::vector<belief::Drawn> draw(const belief::Belief& belief, const support::Deadline& deadline);
+  BeliefStatePtr on_voxels(const belief::Belief& belief, const support::Deadline& deadline);
+  BeliefStatePtr on_poses(const belief::Belief& belief);
   void plan(const belief::Belief& belief, support::Deadline& deadline);
 
   std::shared_ptr<const belief::Model> model_;
@@ -68,8 +74,7 @@ class Planner {
   support::Rng rng_;
   /// An action that left the belief and the configuration as they were is not handed out again until something changes;
   /// nor, while the belief hardly shrinks, one that is all but certain to meet what was met without avail (`alike`);
-  /// and after some queries in which the belief hardly shrank only anchored motions are, then only probes, then all
-  /// again: the poses planned on promise more of small touches than the cells can take in. Begins anew with a belief
+  /// and after some queries in which the belief hardly shrank only probes are, then attempts too, then all again: the poses planned on promise more of small touches than the cells can take in. Begins anew with a belief
   /// that has been through something else.
   void note_fruitless(const belief::Belief& belief);
 
@@ -79,8 +84,11 @@ class Planner {
     robot::JointVector q;  ///< empty before the first query
     std::size_t size = 0;  ///< cells or voxels
     std::vector<std::uint64_t> fruitless;
+    std::vector<motion::JointPath> met;  ///< of small motions that met something, up to there
     double bits = 0.0;  ///< when the belief last shrank noticeably
     int stalls = 0;     ///< queries since then
+    int idle = 0;       ///< queries since then whose action was not to tell anything
+    bool halted = false;  ///< since then, before an action's motion proper had begun
   };
   Standing standing_;
   std::vector<belief::Drawn> poses_;  ///< of the last planning call on poses

@@ -22,6 +22,7 @@ namespace {
 constexpr int lines_per_side = 9;
 constexpr std::size_t going_on = 6;          // waypoints of a sweep after the last pose that it touches
 constexpr std::size_t inner_candidates = 2;  // insertion attempts considered below the start
+constexpr std::size_t least_walked = 12;     // poses for which a walk is weighed
 constexpr double same_seat = 0.0015;         // m between seated poses that one attempt may serve
 constexpr double lever = 0.02;               // m by which a turn counts as a shift there
 
@@ -77,7 +78,7 @@ class PoseState : public BeliefState {
     double direct = 0.0;
     for (const std::size_t pose : group) direct += problem_->direct_cost(base_from_tool, pose);
     direct /= static_cast<double>(group.size());
-    if (problem_->policy_) return {direct, problem_->policy_->cost(group, base_from_tool)};
+    if (problem_->policy_) return {direct, problem_->simulated(group, base_from_tool)};
     const double share = static_cast<double>(group.size()) / static_cast<double>(problem_->predictions_.poses().size());
     const double bits = std::max(std::log2(static_cast<double>(group.size())), problem_->bits_ + std::log2(share));
     return {direct, direct + problem_->cost_per_bit_ * std::max(0.0, bits)};
@@ -128,7 +129,10 @@ PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_p
 }
 
 BeliefStatePtr PoseProblem::start(const JointVector& q) {
-  if (second_ == SecondValue::upper_bound) policy_ = rate_policy(q);
+  if (second_ == SecondValue::upper_bound) {
+    policy_ = rate_policy(q);
+    walk_ = std::make_unique<WalkPolicy>(task_, library_->lattice_through(q), predictions_, *policy_, task_->base_from_tool(q));
+  }
   auto state = std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_.poses().size(), true), true);
   std::vector<double> cost, gained;
   for (const Choice& choice : state->choices()) {
@@ -137,6 +141,12 @@ BeliefStatePtr PoseProblem::start(const JointVector& q) {
   }
   cost_per_bit_ = greedy_cost_per_bit(cost, gained, cost_per_bit_);
   return state;
+}
+
+/// The cost of the cheaper policy.
+double PoseProblem::simulated(const std::vector<std::size_t>& group, const Pose& base_from_tool) {
+  const double cost = policy_->cost(group, base_from_tool);
+  return group.size() < least_walked ? cost : std::min(cost, walk_->cost(group, base_from_tool));
 }
 
 int PoseProblem::dimensions() const {

@@ -7,6 +7,7 @@
 #include "solver/predictions.hpp"
 #include "solver/problem.hpp"
 #include "solver/rate_policy.hpp"
+#include "solver/walk_policy.hpp"
 
 namespace tactus::solver {
 
@@ -36,6 +37,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   std::vector<std::size_t> seats_of(const support::Bitset& members, const robot::JointVector& q) const;
   Attempt attempt_at(std::size_t seat) const;
   std::unique_ptr<RatePolicy> rate_policy(const robot::JointVector& q);
+  double simulated(const std::vector<std::size_t>& group, const geometry::Pose& base_from_tool);
   double seat_cost(const geometry::Pose& base_from_tool, std::size_t seat) const;
   double direct_cost(const geometry::Pose& base_from_tool, std::size_t pose) const;
   geometry::Box region() const;
@@ -50,6 +52,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   double cost_per_bit_;
   SecondValue second_;
   std::unique_ptr<RatePolicy> policy_;  ///< once there is a start, if its cost is the second value
+  std::unique_ptr<WalkPolicy> walk_;    ///< the same; the cheaper of the two counts
   std::vector<action::MotionPtr> anchored_;
   bool anchored_made_ = false;
   std::unordered_map<std::size_t, action::MotionPtr> insertions_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "support/rng.hpp"
 
@@ -29,6 +30,10 @@ std::uint64_t place_of(const Pose& base_from_tool) {
   return place;
 }
 
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 }  // namespace
 
 RatePolicy::RatePolicy(std::shared_ptr<const action::Task> task, Predictions& predictions,
@@ -48,6 +53,13 @@ RatePolicy::RatePolicy(std::shared_ptr<const action::Task> task, Predictions& pr
 double RatePolicy::cost(const Members& members, const Pose& base_from_tool) {
   const Plan& first = plan(members, base_from_tool);
   return lead(base_from_tool, first.base_from_start) + first.cost;
+}
+
+std::vector<double> RatePolicy::costs(const Members& members, const Pose& base_from_tool) {
+  const Plan& first = plan(members, base_from_tool);
+  std::vector<double> costs = first.costs;
+  for (double& cost : costs) cost += lead(base_from_tool, first.base_from_start);
+  return costs;
 }
 
 double RatePolicy::lead(const Pose& base_from_tool, const Pose& base_from_start) const {
@@ -73,8 +85,9 @@ const RatePolicy::Plan& RatePolicy::plan(const Members& members, const Pose& bas
 RatePolicy::Plan RatePolicy::attempts_at(const Members& members) const {
   Bitset left(attempts_.size());
   for (const std::size_t member : members) left.set(member);
-  const auto total = static_cast<double>(members.size());
-  Plan plan{Pose::Identity(), 0.0};
+  Plan plan{Pose::Identity(), {}, 0.0};
+  plan.costs.resize(members.size());
+  double spent = 0.0;
   const Attempt* last = nullptr;
   for (std::size_t count = members.size(); count > 0;) {
     std::size_t best = 0, most = 0;
@@ -85,16 +98,18 @@ RatePolicy::Plan RatePolicy::attempts_at(const Members& members) const {
       if (size > most) most = size, best = member;
     }
     const Attempt& next = attempts_[best];
-    const double still = static_cast<double>(count) / total;
     if (last)
-      plan.cost += still * lead(last->base_from_seated, next.base_from_start);
+      spent += lead(last->base_from_seated, next.base_from_start);
     else
       plan.base_from_start = next.base_from_start;
-    plan.cost += still * next.cost;
+    spent += next.cost;
+    for (std::size_t i = 0; i < members.size(); ++i)
+      if (left.test(members[i]) && served_[best].test(members[i])) plan.costs[i] = spent;
     left.and_not(served_[best]);
     count -= most;
     last = &next;
   }
+  plan.cost = mean(plan.costs);
   return plan;
 }
 
@@ -158,12 +173,16 @@ RatePolicy::Plan RatePolicy::probing(const Members& members, const Pose* base_fr
     std::transform(begin, end, std::back_inserter(group), [](const auto& entry) { return entry.second; });
     std::sort(group.begin(), group.end());
   });
-  Plan plan{motions_[best]->base_from_start, 0.0};
+  Plan plan{motions_[best]->base_from_start, std::vector<double>(members.size()), 0.0};
   for (const auto& [waypoint, group] : groups) {
-    const double share = static_cast<double>(group.size()) / static_cast<double>(members.size());
-    const Pose& stop = motions_[best]->bodies.base_from_body(waypoint - 1, 0);
-    plan.cost += share * (cost_to(best, waypoint) + cost(group, stop));
+    const std::vector<double> then = costs(group, motions_[best]->bodies.base_from_body(waypoint - 1, 0));
+    auto member = members.begin();
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      member = std::lower_bound(member, members.end(), group[i]);
+      plan.costs[static_cast<std::size_t>(member - members.begin())] = cost_to(best, waypoint) + then[i];
+    }
   }
+  plan.cost = mean(plan.costs);
   return plan;
 }
 

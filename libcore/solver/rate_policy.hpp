@@ -30,10 +30,14 @@ class RatePolicy {
   /// is.
   double cost(const Members& members, const geometry::Pose& base_from_tool);
 
+  /// The same by member: what it costs if the target is at that one, of which only the policy does not know.
+  std::vector<double> costs(const Members& members, const geometry::Pose& base_from_tool);
+
  private:
   struct Plan {
     geometry::Pose base_from_start = geometry::Pose::Identity();  ///< of the first motion
-    double cost = 1e300;                                          ///< from there on
+    std::vector<double> costs;                                    ///< from there on, by member
+    double cost = 1e300;                                          ///< their mean
   };
   const Plan& plan(const Members& members, const geometry::Pose& base_from_tool);
   Plan attempts_at(const Members& members) const;

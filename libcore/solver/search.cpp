@@ -178,6 +178,10 @@ std::optional<std::size_t> Search::best(int node, const std::vector<bool>& banne
   return best_by(node, executed_by(), banned);
 }
 
+void Search::charge(int node, std::size_t choice, double more) {
+  for (Outcome& outcome : nodes_[node].choices[choice].outcomes) outcome.cost += more;
+}
+
 int Search::follow(int index, std::size_t choice, std::size_t outcome) {
   const int known = nodes_[index].children[choice][outcome];
   if (known >= 0) return known;

@@ -405,10 +405,37 @@ TEST(Stuck, TriesEverythingAgainInTurn) {
     kept.emplace_back(small, attempts);
     belief.step(*answer.action, {false, belief.configuration()});
   }
-  const auto first_without_small = std::find(kept.begin(), kept.end(), std::pair(false, true));
-  const auto first_without_both = std::find(first_without_small, kept.end(), std::pair(false, false));
-  EXPECT_NE(first_without_both, kept.end());
-  EXPECT_NE(std::find(first_without_both, kept.end(), std::pair(true, true)), kept.end());
+  const auto first_without_both = std::find(kept.begin(), kept.end(), std::pair(false, false));
+  const auto first_without_small = std::find(first_without_both, kept.end(), std::pair(false, true));
+  EXPECT_NE(first_without_small, kept.end());
+  EXPECT_NE(std::find(first_without_small, kept.end(), std::pair(true, true)), kept.end());
+}
+
+/// A robot that does not err, and was stopped by something, would be stopped there again.
+TEST(Stuck, DoesNotGoAgainWhereASmallMotionMetSomething) {
+  int asked = 0;
+  for (std::uint64_t seed = 40; seed < 52; ++seed) {
+    Rng rng(seed);
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(3, Solver::rate));
+    std::vector<motion::JointPath> met;
+    for (int i = 0; i < 14; ++i) {
+      const Answer answer = planner.query(belief);
+      if (!answer.action) break;
+      const motion::JointPath& path = answer.action->path;
+      const bool is_small = answer.action->kind < action::Kind::sweep;
+      for (const motion::JointPath& way : met) {
+        ++asked;
+        EXPECT_FALSE(is_small && in_common(way, path) == way.size()) << "seed " << seed << ", action " << i;
+      }
+      belief.step(*answer.action, world.execute(*answer.action));
+      const belief::Trace& last = belief.history().back();
+      if (is_small && last.contact)
+        met.emplace_back(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(last.outcome + 1));
+    }
+  }
+  EXPECT_GT(asked, 20);
 }
 
 /// Were its poses drawn from the sequence that begins with its seed, they would be those that whoever draws the true

@@ -5,8 +5,7 @@
 
 #include <limits>
 
-#include "action/probes.hpp"
-#include "belief/small_task.hpp"
+#include "solver/policy_setting.hpp"
 #include "solver/pose_problem.hpp"
 #include "solver/search.hpp"
 
@@ -14,85 +13,11 @@
 namespace tactus::test {
 namespace {
 
-using solver::Attempt;
 using solver::BeliefStatePtr;
-using solver::RatePolicy;
 using solver::Search;
 using solver::SecondValue;
 using solver::ValueType;
-using support::Bitset;
 using support::Deadline;
-using support::Rng;
-using Members = RatePolicy::Members;
-
-constexpr int dimensions = 3;
-
-const std::shared_ptr<const action::Task>& task() {
-  static const auto made = small_task({.roll_width = 0.2, .position_width = 0.04});
-  return made;
-}
-
-/// From the middle of the prior, this share of its widths; no two of them so close that an attempt at one may serve the
-/// other.
-std::vector<Pose> random_poses(std::size_t count, Rng& rng, double share = 1.0) {
-  constexpr double apart = 0.002;
-  scene::Prior part = task()->scene().prior;
-  for (double& width : part.width) width *= share;
-  std::vector<Pose> poses;
-  while (poses.size() < count) {
-    const Pose pose = part.sample(rng);
-    if (std::all_of(poses.begin(), poses.end(),
-                    [&](const Pose& other) { return (other.translation() - pose.translation()).norm() > apart; }))
-      poses.push_back(pose);
-  }
-  return poses;
-}
-
-Attempt attempt_at(const Pose& pose) {
-  constexpr double way = 0.05;
-  const Pose seated = task()->scene().seated(pose);
-  Attempt attempt{seated, seated, way};
-  attempt.base_from_start.translation() -= way * (pose.linear() * task()->scene().target.approach_axis);
-  return attempt;
-}
-
-/// A policy on some poses of which an attempt serves its own alone, and what it rests on.
-struct Setting {
-  Setting(std::size_t count, Rng& rng) : predictions(task(), random_poses(count, rng)) {
-    for (std::size_t i = 0; i < count; ++i) {
-      attempts.push_back(attempt_at(predictions.poses()[i]));
-      served.emplace_back(count);
-      served.back().set(i);
-    }
-  }
-  RatePolicy policy() {
-    return {task(),   predictions, action::probes(*task(), task()->frame().region, task()->home(), 3),
-            attempts, served,      dimensions};
-  }
-  double straight(const Pose& base_from_tool, std::size_t member) const {
-    const Pose& start = attempts[member].base_from_start;
-    return task()->options().cost.action + (start.translation() - base_from_tool.translation()).norm() +
-           0.05 * geometry::angle_between(start, base_from_tool) + attempts[member].cost;
-  }
-
-  solver::Predictions predictions;
-  std::vector<Attempt> attempts;
-  std::vector<Bitset> served;
-};
-
-Members random_members(std::size_t count, Rng& rng) {
-  Members members;
-  const std::uint64_t most = 1 + rng.below(6);
-  for (std::size_t i = 0; i < count; ++i)
-    if (rng.below(most) == 0) members.push_back(i);
-  if (members.empty()) members.push_back(rng.below(count));
-  return members;
-}
-
-Pose random_place(Rng& rng) {
-  const Vector3 shift(rng.uniform(-0.05, 0.01), rng.uniform(-0.05, 0.05), rng.uniform(-0.05, 0.05));
-  return Eigen::Translation3d(shift) * task()->base_from_tool(task()->scene().start);
-}
 
 TEST(RatePolicy, OfOnePoseIsTheWayToTheAttemptAndTheAttempt) {
   Rng rng(1);
@@ -105,6 +30,24 @@ TEST(RatePolicy, OfOnePoseIsTheWayToTheAttemptAndTheAttempt) {
         policy.cost({member}, at),
         task()->options().cost.action + action::transit_cost(*task(), at, attempt.base_from_start) + attempt.cost,
         1e-12);
+  }
+}
+
+TEST(RatePolicy, CostsOnAverageWhatItCostsByPose) {
+  Rng rng(12);
+  Setting setting(60, rng);
+  RatePolicy policy = setting.policy();
+  for (int i = 0; i < 100; ++i) {
+    const Members members = random_members(60, rng);
+    const Pose at = random_place(rng);
+    const std::vector<double> costs = policy.costs(members, at);
+    ASSERT_EQ(costs.size(), members.size());
+    double sum = 0.0;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      sum += costs[m];
+      ASSERT_GE(costs[m], setting.straight(at, members[m]) - 1e-9);
+    }
+    ASSERT_NEAR(sum / static_cast<double>(members.size()), policy.cost(members, at), 1e-9);
   }
 }
 

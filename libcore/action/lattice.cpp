@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "action/lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "action/probes.hpp"
+
+namespace tactus::action {
+namespace {
+
+constexpr double same_place = 0.01;    // m
+constexpr double same_turn = 0.01;      // rad
+constexpr double same_posture = 1.5;    // rad of any joint
+
+/// `pitch` apart over a range, as if one were at `through`.
+std::vector<double> rows(double low, double high, double pitch, double through) {
+  std::vector<double> at;
+  for (double next = low + std::fmod(std::fmod(through - low, pitch) + pitch, pitch); next <= high; next += pitch)
+    at.push_back(next);
+  if (at.empty()) at.push_back(0.5 * (low + high));
+  return at;
+}
+
+/// Of the tool frame's origin: on the retreat plane, with the tip in each layer, and where the tool is, if that is
+/// between them.
+std::vector<double> heights(const Task& task, double through) {
+  const scene::SearchFrame& frame = task.frame();
+  std::vector<double> at{frame.standoff};
+  for (const double first : task.options().actions.probe_depth)
+    for (const double depth : layers(first, frame.region.size().z()))
+      at.push_back(std::min(frame.region.low.z() + depth, frame.region.high.z()) - frame.tool_extent.high.z());
+  std::sort(at.begin(), at.end());
+  const bool is_apart =
+      std::all_of(at.begin(), at.end(), [&](double layer) { return std::abs(layer - through) > same_place; });
+  if (is_apart && through > at.front() && through < at.back())
+    at.insert(std::upper_bound(at.begin(), at.end(), through), through);
+  return at;
+}
+
+/// Of the tool about the approach axis, from how it is seated at the central pose.
+double turn_of(const scene::SearchFrame& frame, const Pose& base_from_tool) {
+  const Eigen::Matrix3d turned = frame.base_from_search.linear().transpose() * base_from_tool.linear() *
+                                 frame.search_from_tool.linear().transpose();
+  return std::atan2(turned(1, 0) - turned(0, 1), turned(0, 0) + turned(1, 1));
+}
+
+}  // namespace
+
+Lattice::Lattice(const Task& task, const JointVector& q, double pitch)
+    : task_(task),
+      q_(q),
+      pitch_(pitch),
+      through_(task.frame().base_from_search.inverse() * task.base_from_tool(q).translation()),
+      turn_(turn_of(task.frame(), task.base_from_tool(q))) {
+  const geometry::Box& region = task.frame().region;
+  const std::vector<double> x = rows(region.low.x(), region.high.x(), pitch, through_.x());
+  const std::vector<double> y = rows(region.low.y(), region.high.y(), pitch, through_.y());
+  const std::vector<double> z = heights(task, through_.z());
+  across_ = {x.size(), y.size(), z.size()};
+  for (const double height : z)
+    for (const double along : x)
+      for (const double beside : y) places_.push_back(task.frame().base_from_tool({along, beside, height}, turn_));
+  if (task.options().sites)
+    for (Pose& place : places_) place.translation() = task.options().sites->nearest(place.translation());
+  steps_.resize(places_.size() * directions);
+}
+
+bool Lattice::passes(const JointVector& q) const {
+  const Pose base_from_tool = task_.base_from_tool(q);
+  const Vector3 at = task_.frame().base_from_search.inverse() * base_from_tool.translation();
+  for (int axis = 0; axis < 2; ++axis)
+    if (std::abs(std::remainder(at[axis] - through_[axis], pitch_)) > same_place) return false;
+  const std::vector<double> wanted = heights(task_, at.z()), own = heights(task_, through_.z());
+  const bool has_layer = wanted.size() < own.size() || wanted == own || std::abs(at.z() - through_.z()) < same_place;
+  return has_layer && std::abs(std::remainder(turn_of(task_.frame(), base_from_tool) - turn_, 6.283185307179586)) < same_turn &&
+         (q - q_).cwiseAbs().maxCoeff() < same_posture;
+}
+
+std::optional<std::size_t> Lattice::neighbour(std::size_t place, std::size_t direction) const {
+  const std::size_t axis = direction / 2;
+  const std::array<std::size_t, 3> strides{across_[1], 1, across_[0] * across_[1]};
+  const std::size_t at = place / strides[axis] % across_[axis];
+  const bool forth = direction % 2 == 0;
+  if (forth ? at + 1 >= across_[axis] : at == 0) return std::nullopt;
+  return forth ? place + strides[axis] : place - strides[axis];
+}
+
+MotionPtr Lattice::step(std::size_t place, std::size_t direction) const {
+  const std::lock_guard lock(mutex_);
+  std::optional<MotionPtr>& kept = steps_[place * directions + direction];
+  if (!kept) kept = made(place, direction);
+  return *kept;
+}
+
+MotionPtr Lattice::made(std::size_t place, std::size_t direction) const {
+  const auto next = neighbour(place, direction);
+  if (!next) return nullptr;
+  const auto start = task_.posture(places_[place], q_);
+  if (!start) return nullptr;
+  auto path = task_.straight_path(*start, places_[*next], task_.options().motion.step);
+  if (!path || path->size() < 2) return nullptr;
+  Motion motion;
+  motion.path = std::move(*path);
+  motion.pace = {
+      {0,
+       {task_.options().motion.approach_speed, task_.options().motion.acceleration,
+        task_.options().motion.joint_acceleration}}};
+  return finished(task_, std::move(motion));
+}
+
+}  // namespace tactus::action

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "action/lattice.hpp"
+#include "solver/rate_policy.hpp"
+
+namespace tactus::solver {
+
+/// What a policy costs that looks for the target by walking: from place to place of a lattice, by the way on which the
+/// least is walked on average until something is touched, and what the rate policy does from there on. Where that
+/// policy begins with whole sweeps, each from the retreat plane, a walk goes on where it is; no step of it need pay by
+/// itself. Found by beam search. One thread.
+class WalkPolicy {
+ public:
+  using Members = RatePolicy::Members;
+
+  /// `predictions` and `after` must outlive it. `base_from_tool`: where planning begins, by which the beam is told how far there is to go.
+  WalkPolicy(std::shared_ptr<const action::Task> task, std::shared_ptr<const action::Lattice> lattice, Predictions& predictions,
+             RatePolicy& after, const geometry::Pose& base_from_tool);
+
+  /// Expected cost until the tool is seated, if the target is at one of these poses (not empty), from where the tool
+  /// is. Never less than the best policy costs, as far as the ways to the lattice's places and over the retreat plane
+  /// are free.
+  double cost(const Members& members, const geometry::Pose& base_from_tool);
+
+ private:
+  struct Stand {
+    std::size_t place = 0, direction = 0;  ///< where it is, and how it came there
+    int before = -1;                       ///< the stand that it came from
+    support::Bitset left;                  ///< poses not touched so far
+    std::size_t count = 0;                 ///< of them
+    double spent = 0.0;                    ///< if nothing was touched
+    double expected = 0.0;                 ///< until something was touched, or up to here
+  };
+  /// The steps of the best walk, and what it costs to get to the first of them.
+  struct Walk {
+    double entry = 0.0;
+    std::vector<std::pair<std::size_t, std::size_t>> steps;  ///< place and direction
+  };
+
+  Walk best_walk(const support::Bitset& members, const geometry::Pose& base_from_tool, double to_go) const;
+  std::vector<Stand> entries(const support::Bitset& members, const geometry::Pose& base_from_tool) const;
+  double with_actions(double way) const;
+  std::optional<double> step_cost(std::size_t place, std::size_t direction) const;
+  const support::Bitset& touched(std::size_t place, std::size_t direction) const;
+  const std::vector<double>& after_step(std::size_t place, std::size_t direction);
+
+  std::shared_ptr<const action::Task> task_;
+  std::shared_ptr<const action::Lattice> lattice_;
+  Predictions& predictions_;
+  RatePolicy& after_;
+  double to_go_ = 0.5;  ///< m on average until a walk has touched one of all poses
+  mutable std::vector<support::Bitset> touched_;  ///< by place and direction; empty: not known yet
+  std::vector<std::vector<double>> costs_after_;  ///< likewise, by pose: what it costs from its contact on
+};
+
+}  // namespace tactus::solver

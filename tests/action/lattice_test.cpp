@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "action/lattice.hpp"
+
+#include <gtest/gtest.h>
+
+#include "action/library.hpp"
+#include "belief/small_task.hpp"
+
+/// Places of the tool through the region, and the moves between them.
+namespace tactus::test {
+namespace {
+
+using action::ActionLibrary;
+using action::Lattice;
+using action::MotionPtr;
+using support::Rng;
+
+constexpr double pitch = 0.03;
+
+const action::Task& task() {
+  static const auto made = small_task();
+  return *made;
+}
+
+/// Somewhere in the region, past the retreat plane, turned by a little.
+JointVector random_stand(Rng& rng) {
+  const geometry::Box& region = task().frame().region;
+  for (;;) {
+    const Vector3 at(rng.uniform(region.low.x(), region.high.x()), rng.uniform(region.low.y(), region.high.y()),
+                     task().frame().standoff + rng.uniform(0.0, 0.04));
+    if (const auto q = task().posture(task().frame().base_from_tool(at, rng.uniform(-0.3, 0.3)), task().home()))
+      return *q;
+  }
+}
+
+double apart(const Pose& a, const Pose& b) {
+  return (a.translation() - b.translation()).norm() + geometry::angle_between(a, b);
+}
+
+TEST(Lattice, GoesThroughWhereTheRobotStands) {
+  Rng rng(1);
+  for (int i = 0; i < 10; ++i) {
+    const JointVector q = random_stand(rng);
+    const Lattice lattice(task(), q, pitch);
+    EXPECT_TRUE(lattice.passes(q));
+    double nearest = 1e300;
+    for (std::size_t place = 0; place < lattice.size(); ++place)
+      nearest = std::min(nearest, apart(lattice.base_from_tool(place), task().base_from_tool(q)));
+    EXPECT_LT(nearest, 0.011);  // a layer that is as near as that is the same
+  }
+}
+
+TEST(Lattice, NeighboursAreNeighboursOfOneAnother) {
+  Rng rng(2);
+  const Lattice lattice(task(), random_stand(rng), pitch);
+  for (std::size_t place = 0; place < lattice.size(); ++place)
+    for (std::size_t direction = 0; direction < Lattice::directions; ++direction) {
+      const auto next = lattice.neighbour(place, direction);
+      if (!next) continue;
+      EXPECT_EQ(lattice.neighbour(*next, direction ^ 1), place);
+      const Vector3 way =
+          task().frame().base_from_search.linear().transpose() *
+          (lattice.base_from_tool(*next).translation() - lattice.base_from_tool(place).translation());
+      const auto axis = static_cast<Eigen::Index>(direction / 2);
+      EXPECT_GT((direction % 2 == 0 ? 1.0 : -1.0) * way[axis], 0.0);
+      EXPECT_NEAR(way.norm(), std::abs(way[axis]), 1e-6);
+      EXPECT_TRUE(axis == 2 || std::abs(way.norm() - pitch) < 0.0011) << way.norm();  // sites are 1 mm apart
+    }
+}
+
+TEST(Lattice, StepsLeadFromPlaceToPlaceAndAreFree) {
+  Rng rng(3);
+  const Lattice lattice(task(), random_stand(rng), pitch);
+  int made = 0;
+  for (std::size_t place = 0; place < lattice.size(); ++place)
+    for (std::size_t direction = 0; direction < Lattice::directions; ++direction) {
+      const MotionPtr step = lattice.step(place, direction);
+      if (!step) continue;
+      ++made;
+      EXPECT_EQ(step, lattice.step(place, direction));
+      EXPECT_LT(apart(task().base_from_tool(step->path.front()), lattice.base_from_tool(place)), 1e-5);
+      EXPECT_LT(apart(task().base_from_tool(step->path.back()),
+                      lattice.base_from_tool(*lattice.neighbour(place, direction))),
+                1e-5);
+      for (const JointVector& q : step->path) EXPECT_TRUE(task().known_world().is_free(q));
+    }
+  EXPECT_GT(made, 20);
+}
+
+TEST(Lattice, IsKeptWhileTheRobotMovesAlongItsRows) {
+  Rng rng(4);
+  ActionLibrary library(task());
+  const auto first = library.lattice_through(random_stand(rng));
+  std::size_t moved = 0;
+  for (std::size_t place = 0; place < first->size(); place += 7)
+    if (const MotionPtr step = first->step(place, 0)) {
+      EXPECT_EQ(library.lattice_through(step->path.back()), first);
+      ++moved;
+    }
+  EXPECT_GT(moved, 0u);
+  EXPECT_NE(library.lattice_through(random_stand(rng)), first);
+}
+
+}  // namespace
+}  // namespace tactus::test
