@@ -24,7 +24,7 @@ enum {
   TACTUS_SOLVER_RTDP_BEL = 1,  /**< admissible values first, then inadmissible ones: the paper's */
   TACTUS_SOLVER_RTDP_INAD = 2, /**< inadmissible values only */
   TACTUS_SOLVER_RTDP_AD = 3,   /**< admissible values only */
-  TACTUS_SOLVER_BRTDP_BEL = 4,
+  TACTUS_SOLVER_BRTDP_BEL = 4, /**< bounds of poses, with walks that look for the target: the default */
   TACTUS_SOLVER_TBL = 5,
   TACTUS_SOLVER_FRONTIER = 6,
   TACTUS_SOLVER_RATE = 7 /**< greedy: information gain per cost */

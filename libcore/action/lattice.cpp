@@ -9,9 +9,9 @@
 namespace tactus::action {
 namespace {
 
-constexpr double same_place = 0.01;    // m
-constexpr double same_turn = 0.01;      // rad
-constexpr double same_posture = 1.5;    // rad of any joint
+constexpr double same_place = 0.01;   // m
+constexpr double same_turn = 0.01;    // rad
+constexpr double same_posture = 1.5;  // rad of any joint
 
 /// `pitch` apart over a range, as if one were at `through`.
 std::vector<double> rows(double low, double high, double pitch, double through) {
@@ -73,7 +73,8 @@ bool Lattice::passes(const JointVector& q) const {
     if (std::abs(std::remainder(at[axis] - through_[axis], pitch_)) > same_place) return false;
   const std::vector<double> wanted = heights(task_, at.z()), own = heights(task_, through_.z());
   const bool has_layer = wanted.size() < own.size() || wanted == own || std::abs(at.z() - through_.z()) < same_place;
-  return has_layer && std::abs(std::remainder(turn_of(task_.frame(), base_from_tool) - turn_, 6.283185307179586)) < same_turn &&
+  return has_layer &&
+         std::abs(std::remainder(turn_of(task_.frame(), base_from_tool) - turn_, 6.283185307179586)) < same_turn &&
          (q - q_).cwiseAbs().maxCoeff() < same_posture;
 }
 
@@ -102,10 +103,9 @@ MotionPtr Lattice::made(std::size_t place, std::size_t direction) const {
   if (!path || path->size() < 2) return nullptr;
   Motion motion;
   motion.path = std::move(*path);
-  motion.pace = {
-      {0,
-       {task_.options().motion.approach_speed, task_.options().motion.acceleration,
-        task_.options().motion.joint_acceleration}}};
+  motion.pace = {{0,
+                  {task_.options().motion.approach_speed, task_.options().motion.acceleration,
+                   task_.options().motion.joint_acceleration}}};
   return finished(task_, std::move(motion));
 }
 

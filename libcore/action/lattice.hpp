@@ -42,8 +42,8 @@ class Lattice {
   const Task& task_;
   JointVector q_;
   double pitch_;
-  Vector3 through_;  ///< search frame
-  double turn_;      ///< rad
+  Vector3 through_;                      ///< search frame
+  double turn_;                          ///< rad
   std::array<std::size_t, 3> across_{};  ///< places along each axis
   std::vector<Pose> places_;             ///< x slowest within a layer, the retreat plane's first
   mutable std::mutex mutex_;

@@ -12,7 +12,7 @@ namespace tactus::action {
 namespace {
 
 constexpr std::size_t kept_configurations = 4096;
-constexpr double lattice_pitch = 0.06;  // m
+constexpr double lattice_pitch = 0.06;       // m
 constexpr double same_configuration = 1e-3;  // rad or m, of every joint
 constexpr double same_stand = 1e-6;
 constexpr double least_retreat = 0.3;  // of the way back along the tool's axis, towards the retreat plane

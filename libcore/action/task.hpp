@@ -33,8 +33,8 @@ struct MotionOptions {
 
 struct ActionOptions {
   std::vector<double> primitive_lengths{0.02, 0.06, 0.18};  ///< m
-  std::vector<double> primitive_angles{0.2, 0.8};          ///< rad
-  double probe_spacing = 0.04;                             ///< m between neighbouring sweeps
+  std::vector<double> primitive_angles{0.2, 0.8};           ///< rad
+  double probe_spacing = 0.04;                              ///< m between neighbouring sweeps
   std::vector<double> probe_depth{0.035};  ///< m behind the region's near side that the tool's tip sweeps at
   int insertion_candidates = 6;
   double standoff = 0.03;  ///< m between the tool and the region on the retreat plane

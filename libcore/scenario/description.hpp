@@ -126,7 +126,7 @@ struct CostDescription {
 };
 
 struct PlannerDescription {
-  std::string solver = "rate";  ///< rtdp-bel, rtdp-inad, rtdp-ad, brtdp-bel, tbl, frontier or rate
+  std::string solver = "brtdp-bel";  ///< rtdp-bel, rtdp-inad, rtdp-ad, brtdp-bel, tbl, frontier or rate
   double budget_seconds = 1.0;
   std::uint64_t budget_expansions = 0;  ///< 0: none
   double epsilon = 0.5;                 ///< in [0, 1]

@@ -115,7 +115,7 @@ belief::Options belief_options(const BeliefDescription& b) {
 
 solver::PlannerOptions planner_options(const PlannerDescription& p) {
   solver::PlannerOptions options;
-  options.solver = solver::solver_from(p.solver).value_or(solver::Solver::rate);
+  options.solver = solver::solver_from(p.solver).value_or(solver::Solver::brtdp_bel);
   options.budget_seconds = p.budget_seconds;
   options.budget_expansions = p.budget_expansions;
   options.epsilon = p.epsilon;

@@ -16,7 +16,7 @@ constexpr std::uint64_t own_stream = 0x706c616e;  // apart from whatever else be
 constexpr double noticeable_bits = 0.1;  // by which an observation makes the belief smaller, if it tells anything;
 constexpr double swept_bits = 0.005;     // and as long as nothing was met
 constexpr int patience = 3;              // queries in a stage in which the belief hardly shrank
-constexpr int most_idle = 6;                 // queries in a row whose actions were not to tell anything
+constexpr int most_idle = 6;             // queries in a row whose actions were not to tell anything
 constexpr int stages = 3;
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
@@ -115,7 +115,8 @@ void Planner::note_fruitless(const belief::Belief& belief) {
   standing_.stalls = shrank ? 0 : standing_.stalls + (was_to_tell || standing_.idle > most_idle);
   if (is_handed_out && history.back().contact && policy_->lead == 0) {
     const motion::JointPath& path = chosen().motion->path;
-    standing_.met.emplace_back(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(std::min(history.back().outcome + 1, path.size())));
+    standing_.met.emplace_back(
+        path.begin(), path.begin() + static_cast<std::ptrdiff_t>(std::min(history.back().outcome + 1, path.size())));
   }
   standing_.halted = !shrank && (standing_.halted || (is_handed_out && history.back().outcome <= policy_->lead));
   if (shrank) standing_.bits = bits;
@@ -128,7 +129,8 @@ void Planner::note_fruitless(const belief::Belief& belief) {
 /// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed
 /// for it.
 std::optional<int> Planner::followed(const belief::Belief& belief) {
-  if (!policy_ || is_bounded() || standing_.stalls >= patience || greedy_of(options_.solver) || belief.history().empty() ||
+  if (!policy_ || is_bounded() || standing_.stalls >= patience || greedy_of(options_.solver) ||
+      belief.history().empty() ||
       belief::fingerprint(belief.history(), belief.history().size() - 1) != policy_->history)
     return std::nullopt;
   const belief::Trace& last = belief.history().back();
@@ -186,7 +188,8 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   const bool has_poses = in_phase || (is_bounded() && !poses_.empty());
   SearchOptions search = search_options(options_);
   search.bounded = search.bounded && has_poses;
-  policy_ = std::make_unique<Policy>(Policy{Search(has_poses ? on_poses(belief) : on_voxels(belief, deadline), search)});
+  policy_ =
+      std::make_unique<Policy>(Policy{Search(has_poses ? on_poses(belief) : on_voxels(belief, deadline), search)});
   if (greedy_of(options_.solver) || (search.bounded && !has_met_something(belief.history())))
     policy_->search.expand_start(deadline);
   else
@@ -257,7 +260,9 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   const std::vector<Touch> touches = touched_in_vain(belief);
   const bool does_not_err = belief.sensing().missed_contacts == 0.0 && belief.sensing().false_contacts == 0.0;
   for (std::size_t i = 0; i < choices.size(); ++i)
-    if (is_unpromising(*choices[i].motion) || (does_not_err && is_known(*choices[i].motion)) || share_alike(choices[i], touches) > certain) ban(i, Verdict::set_aside);
+    if (is_unpromising(*choices[i].motion) || (does_not_err && is_known(*choices[i].motion)) ||
+        share_alike(choices[i], touches) > certain)
+      ban(i, Verdict::set_aside);
   if (std::find(banned.begin(), banned.end(), false) == banned.end()) std::fill(banned.begin(), banned.end(), false);
   const auto next = [&] {
     const auto rule = greedy_of(options_.solver);
@@ -267,10 +272,11 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
     const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
     auto made = std::move(realised[*choice]);
     const bool is_charged = made.has_value();
-    if (!made) made = library_->realise(
-        belief.configuration(), *choices[*choice].motion, unlimited,
-        standing_.halted && stage() != Stage::all && has_met_something(belief.history()) ? belief.way_back()
-                                                                                         : motion::JointPath{});
+    if (!made)
+      made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited,
+                               standing_.halted && stage() != Stage::all && has_met_something(belief.history())
+                                   ? belief.way_back()
+                                   : motion::JointPath{});
     if (made &&
         std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
       const double more = made->full_cost - full_cost(choices[*choice]);

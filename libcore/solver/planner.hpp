@@ -74,8 +74,9 @@ class Planner {
   support::Rng rng_;
   /// An action that left the belief and the configuration as they were is not handed out again until something changes;
   /// nor, while the belief hardly shrinks, one that is all but certain to meet what was met without avail (`alike`);
-  /// and after some queries in which the belief hardly shrank only probes are, then attempts too, then all again: the poses planned on promise more of small touches than the cells can take in. Begins anew with a belief
-  /// that has been through something else.
+  /// and after some queries in which the belief hardly shrank only probes are, then attempts too, then all again: the
+  /// poses planned on promise more of small touches than the cells can take in. Begins anew with a belief that has been
+  /// through something else.
   void note_fruitless(const belief::Belief& belief);
 
   struct Standing {
@@ -85,10 +86,10 @@ class Planner {
     std::size_t size = 0;  ///< cells or voxels
     std::vector<std::uint64_t> fruitless;
     std::vector<motion::JointPath> met;  ///< of small motions that met something, up to there
-    double bits = 0.0;  ///< when the belief last shrank noticeably
-    int stalls = 0;     ///< queries since then
-    int idle = 0;       ///< queries since then whose action was not to tell anything
-    bool halted = false;  ///< since then, before an action's motion proper had begun
+    double bits = 0.0;                   ///< when the belief last shrank noticeably
+    int stalls = 0;                      ///< queries since then
+    int idle = 0;                        ///< queries since then whose action was not to tell anything
+    bool halted = false;                 ///< since then, before an action's motion proper had begun
   };
   Standing standing_;
   std::vector<belief::Drawn> poses_;  ///< of the last planning call on poses

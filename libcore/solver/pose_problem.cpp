@@ -23,6 +23,7 @@ constexpr int lines_per_side = 9;
 constexpr std::size_t going_on = 6;          // waypoints of a sweep after the last pose that it touches
 constexpr std::size_t inner_candidates = 2;  // insertion attempts considered below the start
 constexpr std::size_t least_walked = 12;     // poses for which a walk is weighed
+constexpr std::size_t most_swept = 150;      // poses for which sweeps are
 constexpr double same_seat = 0.0015;         // m between seated poses that one attempt may serve
 constexpr double lever = 0.02;               // m by which a turn counts as a shift there
 
@@ -131,7 +132,8 @@ PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_p
 BeliefStatePtr PoseProblem::start(const JointVector& q) {
   if (second_ == SecondValue::upper_bound) {
     policy_ = rate_policy(q);
-    walk_ = std::make_unique<WalkPolicy>(task_, library_->lattice_through(q), predictions_, *policy_, task_->base_from_tool(q));
+    walk_ = std::make_unique<WalkPolicy>(task_, library_->lattice_through(q), predictions_, *policy_,
+                                         task_->base_from_tool(q));
   }
   auto state = std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_.poses().size(), true), true);
   std::vector<double> cost, gained;
@@ -143,8 +145,9 @@ BeliefStatePtr PoseProblem::start(const JointVector& q) {
   return state;
 }
 
-/// The cost of the cheaper policy.
+/// The cost of the cheaper policy, where both may be; where many poses are left, sweeps one by one are not weighed.
 double PoseProblem::simulated(const std::vector<std::size_t>& group, const Pose& base_from_tool) {
+  if (group.size() > most_swept) return walk_->cost(group, base_from_tool);
   const double cost = policy_->cost(group, base_from_tool);
   return group.size() < least_walked ? cost : std::min(cost, walk_->cost(group, base_from_tool));
 }

@@ -25,7 +25,7 @@ std::optional<Solver> solver_from(const std::string& name);
 const char* name_of(Solver solver);
 
 struct PlannerOptions {
-  Solver solver = Solver::rtdp_bel;
+  Solver solver = Solver::brtdp_bel;
   double budget_seconds = 1.0;          ///< a planning call; infinity: none
   std::uint64_t budget_expansions = 0;  ///< a planning call; 0: none
   double epsilon = 0.5;                 ///< share of the budget for the admissible values (rtdp-bel, brtdp-bel)

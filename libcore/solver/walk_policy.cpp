@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace tactus::solver {
 namespace {
@@ -12,8 +11,9 @@ using action::MotionPtr;
 using geometry::Pose;
 using support::Bitset;
 
+constexpr double blocked = 1e300;
 constexpr std::size_t beam = 24;
-constexpr int longest_walk = 160;      // steps
+constexpr int longest_walk = 160;       // steps
 constexpr double least_missing = 0.02;  // share of the poses for which a walk does not go on
 constexpr double given_up = 2.0;        // m that it is worth to walk rather than leave a pose untouched
 
@@ -26,7 +26,8 @@ WalkPolicy::WalkPolicy(std::shared_ptr<const action::Task> task, std::shared_ptr
       predictions_(predictions),
       after_(after),
       touched_(lattice_->size() * action::Lattice::directions),
-      costs_after_(touched_.size()) {
+      costs_after_(touched_.size()),
+      step_costs_(touched_.size()) {
   const Bitset all(predictions_.poses().size(), true);
   const Walk first = best_walk(all, base_from_tool, to_go_);
   double length = 0.0, found = 0.0;
@@ -51,12 +52,16 @@ double WalkPolicy::with_actions(double way) const {
 
 /// None where it is blocked. On the retreat plane no way is looked for, and nothing touched.
 std::optional<double> WalkPolicy::step_cost(std::size_t place, std::size_t direction) const {
-  const auto next = lattice_->neighbour(place, direction);
-  if (!next) return std::nullopt;
-  if (lattice_->is_on_plane(place) && lattice_->is_on_plane(*next))
-    return with_actions(task_->options().cost.metre * lattice_->pitch());
-  const MotionPtr step = lattice_->step(place, direction);
-  return step ? std::optional(with_actions(step->cost_to.back())) : std::nullopt;
+  std::optional<double>& cost = step_costs_[place * action::Lattice::directions + direction];
+  if (!cost) {
+    const auto next = lattice_->neighbour(place, direction);
+    const bool is_across = next && lattice_->is_on_plane(place) && lattice_->is_on_plane(*next);
+    const MotionPtr step = next && !is_across ? lattice_->step(place, direction) : nullptr;
+    cost = is_across ? with_actions(task_->options().cost.metre * lattice_->pitch())
+           : step    ? with_actions(step->cost_to.back())
+                     : blocked;
+  }
+  return *cost < blocked ? cost : std::nullopt;
 }
 
 const Bitset& WalkPolicy::touched(std::size_t place, std::size_t direction) const {
@@ -133,10 +138,9 @@ WalkPolicy::Walk WalkPolicy::best_walk(const Bitset& members, const Pose& base_f
     for (const int at : current)
       for (std::size_t direction = 0; direction < action::Lattice::directions; ++direction) {
         const Stand& from = stands[static_cast<std::size_t>(at)];
-        const auto place = lattice_->neighbour(from.place, direction);
         const auto cost = step_cost(from.place, direction);
         if (!cost) continue;
-        Stand to{*place, direction, at, from.left, 0, 0.0, 0.0};
+        Stand to{*lattice_->neighbour(from.place, direction), direction, at, from.left, 0, 0.0, 0.0};
         to.left.and_not(touched(from.place, direction));
         to.count = to.left.count();
         to.spent = from.spent + *cost;
@@ -147,11 +151,14 @@ WalkPolicy::Walk WalkPolicy::best_walk(const Bitset& members, const Pose& base_f
     for (std::size_t i = 0; i < next.size(); ++i) order.emplace_back(key(next[i]), i);
     std::sort(order.begin(), order.end());
     current.clear();
-    std::set<std::pair<std::size_t, std::uint64_t>> seen;
     for (const auto& [value, i] : order) {
       if (current.size() >= beam || value >= least) break;
       Stand& stand = next[i];
-      if (!seen.insert({stand.place, stand.left.hash().low}).second) continue;
+      const auto is_same = [&](int at) {
+        const Stand& kept = stands[static_cast<std::size_t>(at)];
+        return kept.place == stand.place && kept.left == stand.left;
+      };
+      if (std::any_of(current.begin(), current.end(), is_same)) continue;
       const bool done = static_cast<double>(stand.count) <= least_missing * total;
       if (done) least = value, best = static_cast<int>(stands.size());
       if (!done) current.push_back(static_cast<int>(stands.size()));

@@ -58,9 +58,8 @@ TEST(Lattice, NeighboursAreNeighboursOfOneAnother) {
       const auto next = lattice.neighbour(place, direction);
       if (!next) continue;
       EXPECT_EQ(lattice.neighbour(*next, direction ^ 1), place);
-      const Vector3 way =
-          task().frame().base_from_search.linear().transpose() *
-          (lattice.base_from_tool(*next).translation() - lattice.base_from_tool(place).translation());
+      const Vector3 way = task().frame().base_from_search.linear().transpose() *
+                          (lattice.base_from_tool(*next).translation() - lattice.base_from_tool(place).translation());
       const auto axis = static_cast<Eigen::Index>(direction / 2);
       EXPECT_GT((direction % 2 == 0 ? 1.0 : -1.0) * way[axis], 0.0);
       EXPECT_NEAR(way.norm(), std::abs(way[axis]), 1e-6);
@@ -79,9 +78,9 @@ TEST(Lattice, StepsLeadFromPlaceToPlaceAndAreFree) {
       ++made;
       EXPECT_EQ(step, lattice.step(place, direction));
       EXPECT_LT(apart(task().base_from_tool(step->path.front()), lattice.base_from_tool(place)), 1e-5);
-      EXPECT_LT(apart(task().base_from_tool(step->path.back()),
-                      lattice.base_from_tool(*lattice.neighbour(place, direction))),
-                1e-5);
+      EXPECT_LT(
+          apart(task().base_from_tool(step->path.back()), lattice.base_from_tool(*lattice.neighbour(place, direction))),
+          1e-5);
       for (const JointVector& q : step->path) EXPECT_TRUE(task().known_world().is_free(q));
     }
   EXPECT_GT(made, 20);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <thread>
 
 #include "action/insertion.hpp"
@@ -125,6 +127,30 @@ TEST(Library, BeginsWithTheWayBackAsFarAsTheRetreatPlane) {
     bent += straight && straight->path != action->path;
   }
   EXPECT_GT(bent, 5);
+}
+
+/// The wrist may be wound up either way: the arm does not unwind it on the way to a start that it stands at otherwise.
+TEST(Library, TakesAStartAsItIsReachedWholeTurnsAway) {
+  constexpr int wrist = 3;
+  ActionLibrary library(task());
+  const double z = task().frame().standoff;
+  const auto q = task().posture(task().frame().base_from_tool({0.0, 0.0, z}, 3.0), task().home());
+  ASSERT_TRUE(q);
+  const MotionPtr near = action::anchored_motion(task(), action::Kind::poke, {{0.02, 0.0, z}, {0.02, 0.0, z + 0.01}},
+                                                 (*q)[wrist] > 0.0 ? 3.2 : 3.1, *q);
+  ASSERT_TRUE(near);
+  action::Motion wound = *near;
+  const double turn = std::copysign(2.0 * std::numbers::pi, (*q)[wrist]);
+  for (JointVector& at : wound.path) at[wrist] -= turn;
+  const MotionPtr motion = action::finished(task(), wound);
+  ASSERT_TRUE(robot::inside_limits(*task().scene().robot, motion->path.front()));
+  const auto action = library.realise(*q, *motion, Deadline::unlimited());
+  ASSERT_TRUE(action);
+  EXPECT_LT(action->full_cost, 0.1);
+  ASSERT_EQ(action->path.size(), action->lead + motion->path.size());
+  for (std::size_t i = 0; i < motion->path.size(); ++i)
+    EXPECT_TRUE(
+        task().base_from_tool(action->path[action->lead + i]).isApprox(task().base_from_tool(motion->path[i]), 1e-6));
 }
 
 TEST(Library, GoesRoundWhatBlocksTheStraightWay) {

@@ -149,7 +149,7 @@ TEST(Scenario, TablesAreKeptAndTakenInAgain) {
   };
   const std::vector<std::uint8_t> none = saved(first.get());
   const shelf::Belief belief = shelf::belief(first.get(), TACTUS_BELIEF_PARTICLES);
-  const shelf::Action probe = shelf::query(shelf::planner(first.get()), belief);
+  const shelf::Action probe = shelf::query(shelf::planner(first.get(), 1, TACTUS_SOLVER_RATE), belief);
   std::vector<double> end = shelf::waypoints(probe.get());
   end.erase(end.begin(), end.end() - 6);
   const tactus_observation seen = shelf::observation(end);

@@ -69,13 +69,14 @@ inline Belief belief(const tactus_scenario* of = scenario(), tactus_belief_kind 
   return Belief(made);
 }
 
-/// With a budget of a few expansions, so that tests are quick and the same everywhere.
-inline Planner planner(const tactus_scenario* of = scenario(), std::uint64_t expansions = 2) {
+/// With a budget of a few expansions, so that tests are quick and the same everywhere. 0: the scenario's solver.
+inline Planner planner(const tactus_scenario* of = scenario(), std::uint64_t expansions = 2, tactus_solver solver = 0) {
   tactus_planner_options options{};
   expect_ok(tactus_planner_options_init(&options, sizeof options));
   expect_ok(tactus_scenario_planner_options(of, &options));
   options.budget_seconds = infinity;
   options.budget_expansions = expansions;
+  if (solver != 0) options.solver = solver;
   tactus_planner* made = nullptr;
   expect_ok(tactus_planner_create(of, &options, &made));
   return Planner(made);

@@ -44,7 +44,7 @@ TEST(Status, InitSetsTheSizeAndWritesNoMoreThanIt) {
   std::memset(&given, 0xff, sizeof given);
   shelf::expect_ok(tactus_planner_options_init(&given.options, sizeof given.options));
   EXPECT_EQ(given.options.struct_size, sizeof given.options);
-  EXPECT_EQ(given.options.solver, TACTUS_SOLVER_RTDP_BEL);
+  EXPECT_EQ(given.options.solver, TACTUS_SOLVER_BRTDP_BEL);
   EXPECT_GT(given.options.budget_seconds, 0.0);
   for (const unsigned char byte : given.beyond) EXPECT_EQ(byte, 0xff);
 }

@@ -155,7 +155,7 @@ TEST_F(ScenarioDescription, HasDefaultsForAllButTheTask) {
   EXPECT_EQ(d.sensing.missed_contacts, 0.0);
   EXPECT_EQ(d.sensing.false_contacts, 0.0);
   EXPECT_EQ(d.actions.primitive_lengths, (std::vector<double>{0.02, 0.06, 0.18}));
-  EXPECT_EQ(d.planner.solver, "rate");
+  EXPECT_EQ(d.planner.solver, "brtdp-bel");
   EXPECT_EQ(d.planner.budget_expansions, 0u);
   EXPECT_EQ(d.limits.seconds, 600.0);
 }
