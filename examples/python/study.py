@@ -29,7 +29,7 @@ class Setting(NamedTuple):
 NOISE = ["--stopping-distance", "0.002", "--encoder-error", "0.0001", "--missed-contacts", "0.02", "--false-contacts", "0.02"]
 
 SETTINGS = [
-    Setting("shelf_3d", "shelf_3d", ["--belief", "particles"], 600, 10),
+    Setting("shelf_3d", "shelf_3d", ["--belief", "particles"], 600, 60),
     Setting("base_4d", "base_4d", ["--belief", "particles"], 200, 45),
     Setting("sim_5d", "sim_5d", ["--belief", "particles"], 200, 120),
     Setting("shelf_3d_told", "shelf_3d_noise", ["--belief", "particles"], 100, 180),

@@ -106,7 +106,7 @@ def test_tables_are_kept_and_change_no_answer():
     shelf = ROOT / "examples" / "scenarios" / "shelf_3d.yaml"  # more cells than a list takes
     first, second = (tactus.Scenario.load(shelf) for _ in range(2))
     beliefs = [tactus.Belief(scenario, kind="particles") for scenario in (first, second)]
-    action = tactus.Planner(first, expansions=2).query(beliefs[0])
+    action = tactus.Planner(first, solver="rate", expansions=2).query(beliefs[0])
     seen = tactus.Observation(False, action.waypoints[-1])
     beliefs[0].step(action, seen)
     data = first.save_tables()
