@@ -133,7 +133,7 @@ BeliefStatePtr PoseProblem::start(const JointVector& q) {
   if (second_ == SecondValue::upper_bound) {
     policy_ = rate_policy(q);
     walk_ = std::make_unique<WalkPolicy>(task_, library_->lattice_through(q), predictions_, *policy_,
-                                         task_->base_from_tool(q));
+                                         task_->base_from_tool(q), dimensions());
   }
   auto state = std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_.poses().size(), true), true);
   std::vector<double> cost, gained;

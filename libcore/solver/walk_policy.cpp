@@ -13,6 +13,7 @@ using support::Bitset;
 
 constexpr double blocked = 1e300;
 constexpr std::size_t beam = 24;
+constexpr double near_by = 0.08;        // m to the nearest place, which a walk may begin at then
 constexpr int longest_walk = 160;       // steps
 constexpr double least_missing = 0.02;  // share of the poses for which a walk does not go on
 constexpr double given_up = 2.0;        // m that it is worth to walk rather than leave a pose untouched
@@ -20,11 +21,12 @@ constexpr double given_up = 2.0;        // m that it is worth to walk rather tha
 }  // namespace
 
 WalkPolicy::WalkPolicy(std::shared_ptr<const action::Task> task, std::shared_ptr<const action::Lattice> lattice,
-                       Predictions& predictions, RatePolicy& after, const Pose& base_from_tool)
+                       Predictions& predictions, RatePolicy& after, const Pose& base_from_tool, int dimensions)
     : task_(std::move(task)),
       lattice_(std::move(lattice)),
       predictions_(predictions),
       after_(after),
+      dimensions_(dimensions),
       touched_(lattice_->size() * action::Lattice::directions),
       costs_after_(touched_.size()),
       step_costs_(touched_.size()) {
@@ -46,8 +48,8 @@ WalkPolicy::WalkPolicy(std::shared_ptr<const action::Task> task, std::shared_ptr
 double WalkPolicy::with_actions(double way) const {
   const action::TaskOptions& options = task_->options();
   const std::vector<double>& lengths = options.actions.primitive_lengths;
-  const double longest = lengths.empty() ? 1.0 : *std::max_element(lengths.begin(), lengths.end());
-  return way * (1.0 + options.cost.action / (options.cost.metre * longest));
+  const double longest = lengths.empty() ? 0.0 : options.cost.metre * *std::max_element(lengths.begin(), lengths.end());
+  return longest > 0.0 ? way * (1.0 + options.cost.action / longest) : way;
 }
 
 /// None where it is blocked. On the retreat plane no way is looked for, and nothing touched.
@@ -85,7 +87,7 @@ const std::vector<double>& WalkPolicy::after_step(std::size_t place, std::size_t
   const MotionPtr step = lattice_->step(place, direction);
   costs.assign(predictions_.poses().size(), 0.0);
   const Bitset& met = touched(place, direction);
-  for (const Group& group : predictions_.split(step, met, least_group(met.count(), 3))) {
+  for (const Group& group : predictions_.split(step, met, least_group(met.count(), dimensions_))) {
     if (group.first >= step->path.size()) continue;
     RatePolicy::Members poses;
     for (const std::size_t pose : group.poses)
@@ -115,7 +117,7 @@ std::vector<WalkPolicy::Stand> WalkPolicy::entries(const Bitset& members, const 
     const double distance = (there.translation() - base_from_tool.translation()).norm();
     if (distance < least) least = distance, nearest = place;
   }
-  if (least < 0.08)
+  if (least < near_by)
     enter(nearest, task_->options().cost.metre * least +
                        task_->options().cost.radian *
                            geometry::angle_between(base_from_tool, lattice_->base_from_tool(nearest)));

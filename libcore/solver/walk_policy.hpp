@@ -17,9 +17,9 @@ class WalkPolicy {
   using Members = RatePolicy::Members;
 
   /// `predictions` and `after` must outlive it. `base_from_tool`: where planning begins, by which the beam is told how
-  /// far there is to go.
+  /// far there is to go. `dimensions`: of the poses, as for `least_group`.
   WalkPolicy(std::shared_ptr<const action::Task> task, std::shared_ptr<const action::Lattice> lattice,
-             Predictions& predictions, RatePolicy& after, const geometry::Pose& base_from_tool);
+             Predictions& predictions, RatePolicy& after, const geometry::Pose& base_from_tool, int dimensions);
 
   /// Expected cost until the tool is seated, if the target is at one of these poses (not empty), from where the tool
   /// is. Never less than the best policy costs, as far as the ways to the lattice's places and over the retreat plane
@@ -52,6 +52,7 @@ class WalkPolicy {
   std::shared_ptr<const action::Lattice> lattice_;
   Predictions& predictions_;
   RatePolicy& after_;
+  int dimensions_;
   double to_go_ = 0.5;                                     ///< m on average until a walk has touched one of all poses
   mutable std::vector<support::Bitset> touched_;           ///< by place and direction; empty: not known yet
   std::vector<std::vector<double>> costs_after_;           ///< likewise, by pose: what it costs from its contact on

@@ -19,7 +19,7 @@ struct Walking : Setting {
       : Setting(count, rng, of),
         rate(policy()),
         walk(on, std::make_shared<const action::Lattice>(*on, on->home(), 0.02), predictions, rate,
-             on->base_from_tool(on->home())) {}
+             on->base_from_tool(on->home()), dimensions) {}
   RatePolicy rate;
   WalkPolicy walk;
 };
