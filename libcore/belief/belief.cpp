@@ -166,7 +166,8 @@ Looked Belief::look_closer(double radius) {
   const std::size_t room = model_->options.cells.most;
   if (cells_->coarsest() <= radius || cells_->size() > crowded * room) return Looked::gave_up;
   support::Rng rng(fingerprint(history_, history_.size()));
-  if (cells_->estimated_tests(task(), history_, radius, rng) > static_cast<double>(tests_to_look)) return Looked::gave_up;
+  if (cells_->estimated_tests(task(), history_, radius, rng) > static_cast<double>(tests_to_look))
+    return Looked::gave_up;
   const auto fine = [&](const Cell& cell) { return cells_->radius(cell) <= radius; };
   const Looked looked = cells_->look_inside(task(), history_, fine, 2 * tests_to_look);
   if (looked != Looked::all) return looked;

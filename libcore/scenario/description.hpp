@@ -111,8 +111,8 @@ struct MotionDescription {
 
 struct ActionsDescription {
   std::vector<double> primitive_lengths{0.02, 0.06, 0.18};  ///< m
-  std::vector<double> primitive_angles{0.2, 0.8};          ///< rad
-  double probe_spacing = 0.04;                             ///< m
+  std::vector<double> primitive_angles{0.2, 0.8};           ///< rad
+  double probe_spacing = 0.04;                              ///< m
   std::vector<double> probe_depth{0.035};  ///< m behind the nearest possible point of the target along the approach
   int insertion_candidates = 6;
   double standoff = 0.03;  ///< m from the retreat plane to every pose of the prior
