@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "action/probes.hpp"
 
@@ -22,18 +23,21 @@ std::vector<double> rows(double low, double high, double pitch, double through) 
   return at;
 }
 
-/// Of the tool frame's origin: on the retreat plane, with the tip in each layer, and where the tool is, if that is
-/// between them.
+bool holds(const std::vector<double>& heights, double at) {
+  return std::any_of(heights.begin(), heights.end(), [&](double height) { return std::abs(height - at) < same_place; });
+}
+
+/// Of the tool frame's origin, ascending: on the retreat plane, with the tip in each layer past it, and where the tool
+/// is, if that is between them.
 std::vector<double> heights(const Task& task, double through) {
   const scene::SearchFrame& frame = task.frame();
   std::vector<double> at{frame.standoff};
   for (const double first : task.options().actions.probe_depth)
     for (const double depth : layers(first, frame.region.size().z()))
       at.push_back(std::min(frame.region.low.z() + depth, frame.region.high.z()) - frame.tool_extent.high.z());
+  at.erase(std::remove_if(at.begin() + 1, at.end(), [&](double layer) { return layer <= frame.standoff; }), at.end());
   std::sort(at.begin(), at.end());
-  const bool is_apart =
-      std::all_of(at.begin(), at.end(), [&](double layer) { return std::abs(layer - through) > same_place; });
-  if (is_apart && through > at.front() && through < at.back())
+  if (!holds(at, through) && through > at.front() && through < at.back())
     at.insert(std::upper_bound(at.begin(), at.end(), through), through);
   return at;
 }
@@ -52,13 +56,13 @@ Lattice::Lattice(const Task& task, const JointVector& q, double pitch)
       q_(q),
       pitch_(pitch),
       through_(task.frame().base_from_search.inverse() * task.base_from_tool(q).translation()),
-      turn_(turn_of(task.frame(), task.base_from_tool(q))) {
+      turn_(turn_of(task.frame(), task.base_from_tool(q))),
+      heights_(heights(task, through_.z())) {
   const geometry::Box& region = task.frame().region;
   const std::vector<double> x = rows(region.low.x(), region.high.x(), pitch, through_.x());
   const std::vector<double> y = rows(region.low.y(), region.high.y(), pitch, through_.y());
-  const std::vector<double> z = heights(task, through_.z());
-  across_ = {x.size(), y.size(), z.size()};
-  for (const double height : z)
+  across_ = {x.size(), y.size(), heights_.size()};
+  for (const double height : heights_)
     for (const double along : x)
       for (const double beside : y) places_.push_back(task.frame().base_from_tool({along, beside, height}, turn_));
   if (task.options().sites)
@@ -71,10 +75,10 @@ bool Lattice::passes(const JointVector& q) const {
   const Vector3 at = task_.frame().base_from_search.inverse() * base_from_tool.translation();
   for (int axis = 0; axis < 2; ++axis)
     if (std::abs(std::remainder(at[axis] - through_[axis], pitch_)) > same_place) return false;
-  const std::vector<double> wanted = heights(task_, at.z()), own = heights(task_, through_.z());
-  const bool has_layer = wanted.size() < own.size() || wanted == own || std::abs(at.z() - through_.z()) < same_place;
-  return has_layer &&
-         std::abs(std::remainder(turn_of(task_.frame(), base_from_tool) - turn_, 6.283185307179586)) < same_turn &&
+  const std::vector<double> wanted = heights(task_, at.z());
+  const double turned = turn_of(task_.frame(), base_from_tool) - turn_;
+  return std::all_of(wanted.begin(), wanted.end(), [&](double height) { return holds(heights_, height); }) &&
+         std::abs(std::remainder(turned, 2.0 * std::numbers::pi)) < same_turn &&
          (q - q_).cwiseAbs().maxCoeff() < same_posture;
 }
 

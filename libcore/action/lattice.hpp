@@ -44,6 +44,7 @@ class Lattice {
   double pitch_;
   Vector3 through_;                      ///< search frame
   double turn_;                          ///< rad
+  std::vector<double> heights_;          ///< of the retreat plane and the layers, ascending
   std::array<std::size_t, 3> across_{};  ///< places along each axis
   std::vector<Pose> places_;             ///< x slowest within a layer, the retreat plane's first
   mutable std::mutex mutex_;

@@ -239,11 +239,11 @@ std::vector<Touch> Planner::touched_in_vain(const belief::Belief& belief) const 
   return touches;
 }
 
-/// Of a motion if nothing is touched.
+/// What a motion was thought to cost all the way, with the way to its start, however far its outcomes go.
 double full_cost(const Choice& choice) {
-  double most = 0.0;
-  for (const Outcome& outcome : choice.outcomes) most = std::max(most, outcome.cost);
-  return most;
+  const Outcome& any = choice.outcomes.front();
+  const std::vector<double>& cost_to = choice.motion->cost_to;
+  return any.cost + cost_to.back() - cost_to[std::min(any.waypoint, cost_to.size() - 1)];
 }
 
 /// The best motion at a node, made executable; the next best where the robot can't get to its start.
