@@ -237,7 +237,7 @@ TEST(Cancel, WithoutAQueryChangesNothing) {
 /// however soon they are to meet something.
 TEST(Charge, IsNoneForSmallMotions) {
   int small = 0, sure = 0;
-  for (const std::uint64_t seed : {60u, 61u, 62u, 63u}) {
+  for (std::uint64_t seed = 60; seed < 72; ++seed) {
     Rng rng(seed);
     const PlainWorld world(*task(), task()->scene().prior.sample(rng));
     Belief belief(model(Kind::particles), task()->scene().start);
