@@ -233,36 +233,6 @@ TEST(Cancel, WithoutAQueryChangesNothing) {
   EXPECT_EQ(calm.statistics().expansions, cancelled.statistics().expansions);
 }
 
-/// What is charged for ways that turn out longer is not charged for small motions, which begin where the robot is,
-/// however soon they are to meet something.
-TEST(Charge, IsNoneForSmallMotions) {
-  int small = 0, sure = 0;
-  for (std::uint64_t seed = 60; seed < 72; ++seed) {
-    Rng rng(seed);
-    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
-    Belief belief(model(Kind::particles), task()->scene().start);
-    Planner planner(model(Kind::particles), within(3, Solver::rate));
-    for (int i = 0; i < 10; ++i) {
-      const Answer answer = planner.query(belief);
-      if (!answer.action) break;
-      for (const solver::Alternative& alternative : planner.alternatives()) {
-        const action::Motion& motion = *alternative.choice.motion;
-        if (motion.anchored) continue;
-        ++small;
-        sure += alternative.choice.contact_probability() > 1.0 - 1e-9;
-        for (const solver::Outcome& outcome : alternative.choice.outcomes)
-          EXPECT_NEAR(
-              outcome.cost,
-              task()->options().cost.action + motion.cost_to[std::min(outcome.waypoint, motion.path.size() - 1)],
-              1e-12);
-      }
-      belief.step(*answer.action, world.execute(*answer.action));
-    }
-  }
-  EXPECT_GT(small, 50);
-  EXPECT_GT(sure, 0);
-}
-
 /// What one belief was down to is not what another has to beat.
 TEST(Progress, IsOfOneBeliefAlone) {
   const PlainWorld world(*task(), task()->scene().prior.central_pose());
