@@ -33,6 +33,13 @@ static void notice_hand_over(episode* e) {
   if (has_voxels && e->summary.phase == TACTUS_PHASE_POSES && isnan(r->voxels.cost_m)) r->voxels = r->whole;
 }
 
+static void notice_plan(episode* e) {
+  static const double late = 1.05;
+  trial_result* r = e->result;
+  r->slowest_planning_s = fmax(r->slowest_planning_s, e->statistics.seconds);
+  r->late_plans += e->statistics.seconds > late * e->setup->planner.budget_seconds;
+}
+
 static tactus_status measure(episode* e) {
   effort* whole = &e->result->whole;
   const tactus_costs* costs = &e->setup->costs;
@@ -43,6 +50,7 @@ static tactus_status measure(episode* e) {
   whole->travel_m -= e->led_m;
   whole->rotation_rad -= e->led_rad;
   whole->cost_m = costs->metre * whole->travel_m + costs->radian * whole->rotation_rad + costs->action * whole->actions;
+  if ((double)e->statistics.total_calls > whole->planner_calls) notice_plan(e);
   whole->planner_calls = (double)e->statistics.total_calls;
   whole->planning_s = e->statistics.total_seconds;
   e->result->expansions = e->statistics.total_expansions;

@@ -70,6 +70,8 @@ run_summary summarise(const run_result* run) {
     sum.contacts += share * trial->contacts;
     sum.expansions += share * (double)trial->expansions;
     add_effort(&sum.mean, &trial->whole, share);
+    sum.slowest_planning_s = fmax(sum.slowest_planning_s, trial->slowest_planning_s);
+    sum.late_plans += trial->late_plans;
   }
   return sum;
 }

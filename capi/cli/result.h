@@ -49,8 +49,10 @@ typedef struct {
   effort whole;
   effort voxels; /* of this, up to the hand-over */
   int contacts;
-  uint64_t expansions;     /* beliefs expanded */
-  double position_error_m; /* of the belief's mean */
+  uint64_t expansions;       /* beliefs expanded */
+  double slowest_planning_s; /* of a call */
+  int late_plans;            /* calls that took over 5 % longer than the budget in seconds, if there is one */
+  double position_error_m;   /* of the belief's mean */
   double angle_error_rad;
   trial_end ended;
 } trial_result;
@@ -86,6 +88,8 @@ typedef struct {
   int trials, inserted, truth_kept;
   effort mean;
   double contacts, expansions;
+  double slowest_planning_s;
+  int late_plans;
 } run_summary;
 
 run_summary summarise(const run_result* run);

@@ -47,6 +47,8 @@ static const json_member of_trial[] = {
     {"phase1_actions", member_count, offsetof(trial_result, voxels.actions), 0},
     {"phase1_planner_calls", member_count, offsetof(trial_result, voxels.planner_calls), 0},
     {"phase1_planning_s", member_double, offsetof(trial_result, voxels.planning_s), 0},
+    {"slowest_planning_s", member_double, offsetof(trial_result, slowest_planning_s), 0},
+    {"late_plans", member_int, offsetof(trial_result, late_plans), 0},
 };
 
 static const json_member of_summary[] = {
@@ -61,6 +63,8 @@ static const json_member of_summary[] = {
     {"mean_planner_calls", member_double, offsetof(run_summary, mean.planner_calls), 0},
     {"mean_planning_s", member_double, offsetof(run_summary, mean.planning_s), 0},
     {"mean_expansions", member_double, offsetof(run_summary, expansions), 0},
+    {"slowest_planning_s", member_double, offsetof(run_summary, slowest_planning_s), 0},
+    {"late_plans", member_int, offsetof(run_summary, late_plans), 0},
 };
 
 /* --- writing */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 
 #include "result.h"
@@ -27,4 +28,10 @@ void print_table(FILE* out, const run_result* run) {
           "beliefs expanded a second\n",
           mean->cost_m, mean->travel_m, mean->actions, summary.contacts, mean->planning_s, mean->planner_calls,
           mean->planning_s > 0.0 ? summary.expansions / mean->planning_s : 0.0);
+  fprintf(out, "slowest plan: %.2f s; ", summary.slowest_planning_s);
+  if (isnan(run->setting.budget_seconds))
+    fputs("no budget in seconds\n", out);
+  else
+    fprintf(out, "%d of %.0f took over 5 %% longer than the %g s allowed\n", summary.late_plans,
+            mean->planner_calls * run->count, run->setting.budget_seconds);
 }

@@ -12,14 +12,15 @@ Pose backed_off(const Pose& base_from_seated, const Vector3& axis, double distan
 
 }  // namespace
 
-MotionPtr insertion(const Task& task, const Pose& base_from_target, const JointVector& near, std::size_t seat) {
+MotionPtr insertion(const Task& task, const Pose& base_from_target, const JointVector& near, std::size_t seat,
+                    std::optional<double> plane) {
   const MotionOptions& options = task.options().motion;
   const scene::Scene& scene = task.scene();
   const Pose base_from_seated = scene.seated(base_from_target, seat);
   const Vector3 axis = base_from_target.linear() * scene.target.approach_axis;
   const Vector3 seated = task.frame().base_from_search.inverse() * base_from_seated.translation();
   const Vector3 along = task.frame().base_from_search.linear().transpose() * axis;
-  const double to_plane = (seated.z() - task.frame().standoff) / along.z();
+  const double to_plane = (seated.z() - plane.value_or(task.frame().standoff)) / along.z();
   if (!(to_plane > scene.target.approach_depth)) return nullptr;
 
   const auto start = task.posture(backed_off(base_from_seated, axis, to_plane), near);

@@ -10,9 +10,8 @@
 namespace tactus::action {
 namespace {
 
-constexpr double same_place = 0.01;   // m
-constexpr double same_turn = 0.01;    // rad
-constexpr double same_posture = 1.5;  // rad of any joint
+constexpr double same_place = 0.01;  // m
+constexpr double same_turn = 0.01;   // rad
 
 /// `pitch` apart over a range, as if one were at `through`.
 std::vector<double> rows(double low, double high, double pitch, double through) {
@@ -78,8 +77,7 @@ bool Lattice::passes(const JointVector& q) const {
   const std::vector<double> wanted = heights(task_, at.z());
   const double turned = turn_of(task_.frame(), base_from_tool) - turn_;
   return std::all_of(wanted.begin(), wanted.end(), [&](double height) { return holds(heights_, height); }) &&
-         std::abs(std::remainder(turned, 2.0 * std::numbers::pi)) < same_turn &&
-         (q - q_).cwiseAbs().maxCoeff() < same_posture;
+         std::abs(std::remainder(turned, 2.0 * std::numbers::pi)) < same_turn && in_same_posture(q, q_);
 }
 
 std::optional<std::size_t> Lattice::neighbour(std::size_t place, std::size_t direction) const {

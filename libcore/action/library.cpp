@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "action/primitives.hpp"
+#include "action/probes.hpp"
 #include "support/rng.hpp"
 
 namespace tactus::action {
@@ -30,6 +31,19 @@ bool stands_alike(const robot::RobotModel& robot, const JointVector& a, const Jo
   robot::forward(robot, b, at_b);
   return std::equal(at_a.begin(), at_a.end(), at_b.begin(),
                     [](const Pose& one, const Pose& other) { return one.isApprox(other, same_stand); });
+}
+
+/// Whether a box lies in another and hardly falls short of it.
+bool fills(const geometry::Box& box, const geometry::Box& whole) {
+  constexpr double most = 0.85;
+  return whole.contains(box.low) && whole.contains(box.high) &&
+         (box.size().array() >= most * whole.size().array()).all();
+}
+
+/// By a little, for a region that changes with what was drawn.
+geometry::Box widened(const geometry::Box& box) {
+  constexpr double by = 0.02;
+  return {box.low - by * box.size(), box.high + by * box.size()};
 }
 
 JointPath shifted(JointPath path, const JointVector& by) {
@@ -74,6 +88,16 @@ std::vector<MotionPtr> ActionLibrary::primitives_at(const JointVector& q) {
   const std::lock_guard lock(mutex_);
   if (primitives_.size() >= kept_configurations) primitives_.clear();
   return primitives_.try_emplace(key, std::move(motions)).first->second;
+}
+
+std::vector<MotionPtr> ActionLibrary::probes_in(const geometry::Box& region, const JointVector& near, int most) {
+  const std::lock_guard lock(mutex_);
+  const bool is_kept = probes_.most == most && fills(region, probes_.region) && in_same_posture(probes_.near, near);
+  if (!is_kept) {
+    const geometry::Box wider = widened(region);
+    probes_ = {wider, near, most, probes(task_, wider, near, most)};
+  }
+  return probes_.motions;
 }
 
 std::shared_ptr<const Lattice> ActionLibrary::lattice_through(const JointVector& q) {

@@ -41,6 +41,10 @@ class ActionLibrary {
   /// `primitives` from `q`, made once per configuration.
   std::vector<MotionPtr> primitives_at(const JointVector& q);
 
+  /// `probes` through a region, or a little beyond it: kept for as long as the next region fills most of the last one
+  /// they were made for, and the robot stays in a similar posture.
+  std::vector<MotionPtr> probes_in(const geometry::Box& region, const JointVector& near, int most);
+
   /// The executable action that takes the robot from `q` through `motion`: its way back and over the retreat plane
   /// first if it is anchored, by a planned path where the straight one is not free. None if no free way is found.
   /// `way_back`: a way from `q` that is known to be free of the target too; followed as far as the retreat plane.
@@ -58,6 +62,13 @@ class ActionLibrary {
   std::shared_ptr<const Lattice> lattice_;
   std::mutex mutex_;
   std::map<std::vector<double>, std::vector<MotionPtr>> primitives_;
+  struct Probes {
+    geometry::Box region;
+    JointVector near;  ///< empty before the first
+    int most = 0;
+    std::vector<MotionPtr> motions;
+  };
+  Probes probes_;
 };
 
 /// A hash of the waypoints: the identity of an action.

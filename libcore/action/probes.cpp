@@ -23,17 +23,17 @@ std::vector<double> lines(double low, double high, double spacing, int most) {
   return offsets;
 }
 
-/// Tool positions of a sweep along axis `along` (0 or 1) at `across` on the other: over the start, down to `z`, through
-/// the region.
-std::vector<Vector3> sweep_positions(const scene::SearchFrame& frame, const Box& region, int along, double sign,
-                                     double across, double z) {
+/// Tool positions of a sweep along axis `along` (0 or 1) at `across` on the other: on the retreat plane, down to `z`,
+/// through the region.
+std::vector<Vector3> sweep_positions(const scene::SearchFrame& frame, const Box& region, double plane, int along,
+                                     double sign, double across, double z) {
   const double before = sign > 0.0 ? region.low[along] - frame.tool_extent.high[along] - beside
                                    : region.high[along] - frame.tool_extent.low[along] + beside;
   const double beyond = sign > 0.0 ? region.high[along] : region.low[along];
   Vector3 start;
   start[along] = before;
   start[1 - along] = across;
-  start.z() = frame.standoff;
+  start.z() = plane;
   Vector3 down = start, end = start;
   down.z() = end.z() = z;
   end[along] = beyond;
@@ -58,6 +58,16 @@ std::vector<Pose> on_sites(const Task& task, const std::vector<Vector3>& positio
 }
 
 }  // namespace
+
+double retreat_plane(const Task& task, const Box& region) {
+  const scene::SearchFrame& frame = task.frame();
+  return frame.standoff + std::max(0.0, region.low.z() - frame.region.low.z());
+}
+
+bool in_same_posture(const JointVector& a, const JointVector& b) {
+  constexpr double most_turned = 1.5;  // rad, or m
+  return a.size() == b.size() && (a - b).cwiseAbs().maxCoeff() < most_turned;
+}
 
 std::vector<double> layers(double first, double depth) {
   const int more = std::clamp(static_cast<int>(std::lround((depth - first) / layer_spacing)), 0, most_layers - 1);
@@ -88,6 +98,7 @@ MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3
 std::vector<MotionPtr> probes(const Task& task, const Box& region, const JointVector& near, int most) {
   const ActionOptions& options = task.options().actions;
   const scene::SearchFrame& frame = task.frame();
+  const double plane = retreat_plane(task, region);
   std::vector<MotionPtr> motions;
   const auto add = [&](Kind kind, const std::vector<Vector3>& positions) {
     if (MotionPtr motion = anchored_motion(task, kind, positions, 0.0, near)) motions.push_back(std::move(motion));
@@ -101,11 +112,10 @@ std::vector<MotionPtr> probes(const Task& task, const Box& region, const JointVe
       for (const int along : {0, 1})
         for (const double across : lines(region.low[1 - along], region.high[1 - along], options.probe_spacing, most))
           for (const double sign : {1.0, -1.0})
-            add(Kind::sweep, sweep_positions(frame, region, along, sign, across, with_tip_at(depth)));
+            add(Kind::sweep, sweep_positions(frame, region, plane, along, sign, across, with_tip_at(depth)));
     for (const double u : lines(region.low.x(), region.high.x(), 2.0 * options.probe_spacing, (most + 1) / 2))
       for (const double v : lines(region.low.y(), region.high.y(), 2.0 * options.probe_spacing, (most + 1) / 2))
-        add(Kind::poke,
-            {{u, v, frame.standoff}, {u, v, with_tip_at(std::max(first, region.size().z() - short_of_end))}});
+        add(Kind::poke, {{u, v, plane}, {u, v, with_tip_at(std::max(first, region.size().z() - short_of_end))}});
   }
   return motions;
 }

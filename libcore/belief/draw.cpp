@@ -7,6 +7,8 @@
 namespace tactus::belief {
 namespace {
 
+using geometry::Vector3;
+
 constexpr std::size_t least_trial = 24;       // projections after which it is asked whether they pay:
 constexpr std::size_t pays_from = 3;          // one in so many misses the history by no more than `finest_part`
 constexpr double least_near = 0.001;          // m by which a pose may miss the history and serve for planning
@@ -18,6 +20,8 @@ constexpr double finest_part = 0.00025;       // m: radius of the parts that pos
 constexpr double least_step = -6.0;           // log2 of how much of a cell's width
 constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
 constexpr std::size_t unproved_share = 8;     // of them anywhere in a cell, for what no other speaks for
+constexpr std::size_t far_share = 16;         // of them in cells that are the farthest from any other pose;
+constexpr std::size_t most_compared = 30000;  // cells, if there are no more
 constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
 constexpr std::size_t tries_per_pose = 2;     // of those that come near, to agree with the history
 
@@ -28,6 +32,62 @@ bool was_missed(const Task& task, const std::vector<Trace>& history, const Pose&
     return !trace.contact && !trace.doubted && !reproduces(task, trace, pose);
   });
 }
+
+Drawn drawn_from(const Projection& found) { return {geometry::pose_from(found.pose), found.miss}; }
+
+/// A pose drawn for an earlier state, brought into agreement with what was felt since; bit for bit the same if it is
+/// already. None if a motion that met nothing rules it out, or it misses the history by more than `most`.
+std::optional<Drawn> brought_back(const Task& task, const std::vector<Trace>& history, const Drawn& known,
+                                  double most) {
+  if (was_missed(task, history, known.pose)) return std::nullopt;
+  const PoseVector from = geometry::pose_vector(known.pose);
+  const auto found = projected(task, history, from, most);
+  if (!found) return std::nullopt;
+  return found->pose == from ? Drawn{known.pose, found->miss} : drawn_from(*found);
+}
+
+/// Of a target; so that distances are about how far its surface is moved.
+struct Place {
+  Vector3 translation;
+  Eigen::Quaterniond turn;
+  explicit Place(const Pose& pose) : translation(pose.translation()), turn(pose.linear()) {}
+  double squared_distance(const Place& other, double lever) const {
+    return (translation - other.translation).squaredNorm() +
+           8.0 * lever * lever * std::max(0.0, 1.0 - std::abs(turn.dot(other.turn)));
+  }
+};
+
+/// Cells, the farthest from some places first.
+class FarthestFirst {
+ public:
+  FarthestFirst(const CellBelief& cells, double lever) : lever_(lever) {
+    cells.for_each([&](const Cell& cell) {
+      cells_.push_back(cell);
+      places_.emplace_back(geometry::pose_from(cell.centre));
+    });
+    squared_.assign(cells_.size(), 1e300);
+  }
+  void add(const Place& place) {
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      squared_[i] = std::min(squared_[i], places_[i].squared_distance(place, lever_));
+  }
+  /// The farthest, which counts as one of the places from then on. None if all are nearer than `reach(cell)`.
+  template <typename Reach>
+  std::optional<Cell> next(Reach&& reach) {
+    const auto farthest = std::max_element(squared_.begin(), squared_.end()) - squared_.begin();
+    const auto i = static_cast<std::size_t>(farthest);
+    const Cell cell = cells_[i];
+    if (std::sqrt(squared_[i]) < reach(cell)) return std::nullopt;
+    add(Place(places_[i]));
+    return cell;
+  }
+
+ private:
+  double lever_;
+  std::vector<Cell> cells_;
+  std::vector<Place> places_;
+  std::vector<double> squared_;
+};
 
 /// Poses of a belief for planning, by what is cheapest where it works.
 class Draw {
@@ -42,6 +102,7 @@ class Draw {
 
   std::vector<Drawn> poses(const std::vector<Drawn>& known) {
     bring_back(known);
+    from_far_cells();
     from_cells();
     if (close_.size() >= count_ / least_share) return chosen(0);
     from_fine_parts();
@@ -52,26 +113,24 @@ class Draw {
   }
 
  private:
-  bool was_missed(const PoseVector& v) const {
-    return belief::was_missed(belief_.task(), belief_.history(), geometry::pose_from(v));
-  }
   std::size_t size() const { return close_.size() + near_poses_.size(); }
   bool lacks(std::size_t wanted) const { return size() < wanted && deadline_.used_fraction() < 0.5; }
 
-  void add(const Projection& found) { (found.miss <= finest_part ? close_ : near_poses_).push_back(found); }
+  void add(const Drawn& found) { (found.miss <= finest_part ? close_ : near_poses_).push_back(found); }
   void add_projected(const PoseVector& from) {
-    if (const auto found = projected(belief_.task(), belief_.history(), from, near_)) add(*found);
+    if (const auto found = projected(belief_.task(), belief_.history(), from, near_)) add(drawn_from(*found));
   }
   /// A pose from a cell, brought into agreement with the contacts unless it can't be far from that. False if a motion
   /// that met nothing rules it out.
   bool add_from(const Cell& cell) {
-    const PoseVector pose = cells_.draw_in(cell, rng_);
+    const PoseVector v = cells_.draw_in(cell, rng_);
+    const Pose pose = geometry::pose_from(v);
     const double radius = cells_.radius(cell);
-    if (was_missed(pose)) return false;
+    if (was_missed(belief_.task(), belief_.history(), pose)) return false;
     if (radius > fine_radius)
-      add_projected(pose);
+      add_projected(v);
     else
-      add({pose, reproduces(belief_.task(), belief_.history(), geometry::pose_from(pose)) ? 0.0 : radius});
+      add({pose, reproduces(belief_.task(), belief_.history(), pose) ? 0.0 : radius});
     return true;
   }
 
@@ -98,7 +157,20 @@ class Draw {
   /// Those of an earlier state, as far as they agree with what was felt since; a part of those wanted is drawn afresh.
   void bring_back(const std::vector<Drawn>& known) {
     for (std::size_t i = 0; i < known.size() && lacks(count_ - count_ / least_share); ++i)
-      if (const PoseVector pose = geometry::pose_vector(known[i].pose); !was_missed(pose)) add_projected(pose);
+      if (const auto still = brought_back(belief_.task(), belief_.history(), known[i], near_)) add(*still);
+  }
+
+  /// However little they weigh: a planner that does not know of them takes for done what is not.
+  void from_far_cells() {
+    if (cells_.size() > most_compared) return;
+    FarthestFirst cells(cells_, 0.5 * belief_.task().target_diameter());
+    for (const std::vector<Drawn>* found : {&close_, &near_poses_})
+      for (const Drawn& drawn : *found) cells.add(Place(drawn.pose));
+    for (std::size_t tried = 0; tried < count_ / far_share && lacks(count_); ++tried) {
+      const auto cell = cells.next([&](const Cell& one) { return 2.0 * cells_.radius(one); });
+      if (!cell) return;
+      add_projected(cells_.draw_in(*cell, rng_));
+    }
   }
 
   void from_coarse_parts() {
@@ -109,12 +181,12 @@ class Draw {
 
   void from_neighbours() {
     for (std::size_t tried = 0; tried < count_ && lacks(count_ / least_share) && size() > 0; ++tried)
-      add_projected(beside(any()));
+      add_projected(beside(geometry::pose_vector(any().pose)));
   }
 
-  const PoseVector& any() {
+  const Drawn& any() {
     const std::size_t i = rng_.below(size());
-    return i < close_.size() ? close_[i].pose : near_poses_[i - close_.size()].pose;
+    return i < close_.size() ? close_[i] : near_poses_[i - close_.size()];
   }
 
   /// A pose up to a cell's width off another, and mostly much less.
@@ -130,11 +202,10 @@ class Draw {
   /// All but `unproved` of those wanted; the rest are anywhere in a cell.
   std::vector<Drawn> chosen(std::size_t unproved) {
     std::vector<Drawn> poses;
-    for (const std::vector<Projection>* found : {&close_, &near_poses_})
-      for (const auto& [v, miss] : *found)
-        if (const Pose pose = geometry::pose_from(v);
-            poses.size() + unproved < count_ && (miss == 0.0 || belief_.contains(pose)))
-          poses.push_back({pose, miss});
+    for (const std::vector<Drawn>* found : {&close_, &near_poses_})
+      for (const Drawn& drawn : *found)
+        if (poses.size() + unproved < count_ && (drawn.miss == 0.0 || belief_.contains(drawn.pose)))
+          poses.push_back(drawn);
     for (std::size_t i = 0; i < unproved || poses.size() < count_ / least_share; ++i) {
       const Cell cell = cells_.draw_cell(rng_);
       poses.push_back({geometry::pose_from(cells_.draw_in(cell, rng_)), cells_.radius(cell)});
@@ -148,7 +219,7 @@ class Draw {
   double near_;
   support::Rng& rng_;
   const support::Deadline& deadline_;
-  std::vector<Projection> close_, near_poses_;
+  std::vector<Drawn> close_, near_poses_;
 };
 
 }  // namespace
@@ -178,17 +249,20 @@ std::vector<Drawn> Belief::draw_explained(std::size_t count, support::Rng& rng,
   return poses;
 }
 
-std::vector<Pose> Belief::draw_feasible(std::size_t count, support::Rng& rng, const support::Deadline& deadline) const {
-  std::vector<Pose> poses;
+std::vector<Drawn> Belief::draw_feasible(std::size_t count, support::Rng& rng, const std::vector<Drawn>& known,
+                                         const support::Deadline& deadline) const {
+  std::vector<Drawn> poses;
   const double radius = model_->voxels->grid.half_diagonal();
-  const auto lacks = [&] { return poses.size() < count && deadline.used_fraction() < 0.5; };
+  const auto lacks = [&](std::size_t wanted) { return poses.size() < wanted && deadline.used_fraction() < 0.5; };
+  for (std::size_t i = 0; i < known.size() && lacks(count - count / least_share); ++i)
+    if (const auto still = brought_back(task(), history_, known[i], least_near)) poses.push_back(*still);
   std::size_t tried = 0;
-  for (std::size_t i = 0; i < samples_per_pose * count && tried < tries_per_pose * count && lacks(); ++i) {
+  for (std::size_t i = 0; i < samples_per_pose * count && tried < tries_per_pose * count && lacks(count); ++i) {
     const Pose pose = task().scene().prior.sample(rng);
     if (!may_reproduce(task(), history_, pose, radius) || was_missed(task(), history_, pose)) continue;
     ++tried;
     if (const auto found = projected(task(), history_, geometry::pose_vector(pose), least_near))
-      poses.push_back(geometry::pose_from(found->pose));
+      poses.push_back(drawn_from(*found));
   }
   return poses;
 }

@@ -32,7 +32,7 @@ std::vector<double> forecast(const belief::Belief& belief, const action::Action&
   if (belief.phase() == belief::Phase::poses)
     return forecast_of(belief::poses_of(belief.draw(count, rng)), belief, motion);
   std::vector<geometry::Pose> feasible;
-  if (likelihood == belief::Likelihood::calibrated) feasible = belief.draw_feasible(count, rng);
+  if (likelihood == belief::Likelihood::calibrated) feasible = belief::poses_of(belief.draw_feasible(count, rng));
   return std::make_shared<VoxelProblem>(belief.shared_model(), nullptr, std::move(feasible), 0.0)
       ->forecast(belief.voxels(), motion);
 }

@@ -75,7 +75,7 @@ std::shared_ptr<const InstanceState> InstanceState::start(InstancePtr instance, 
       std::make_shared<Shared>(Shared{instance, informed_costs(*instance, 1.0), second, least_cost_per_bit, {}});
   auto state = std::make_shared<const InstanceState>(shared, 0, all);
   std::vector<double> cost, gained;
-  for (const Choice& choice : state->choices()) {
+  for (const Choice& choice : state->choices(support::Deadline::unlimited())) {
     cost.push_back(choice.expected_cost());
     gained.push_back(choice.information());
   }
@@ -83,7 +83,7 @@ std::shared_ptr<const InstanceState> InstanceState::start(InstancePtr instance, 
   return state;
 }
 
-std::vector<Choice> InstanceState::choices() const {
+std::vector<Choice> InstanceState::choices(const support::Deadline&) const {
   std::vector<Choice> result;
   const Instance::Configuration& here = instance().configurations[place_];
   for (std::size_t motion = 0; motion < here.results.size(); ++motion) {

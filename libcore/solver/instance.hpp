@@ -74,7 +74,7 @@ class InstanceState : public BeliefState {
   const robot::JointVector& configuration() const override { return instance().configurations[place_].q; }
   Values heuristic() const override { return values(place_, poses_); }
   std::size_t support_size() const override { return poses_.count(); }
-  std::vector<Choice> choices() const override;
+  std::vector<Choice> choices(const support::Deadline& deadline) const override;
   BeliefStatePtr successor(const Choice& choice, const Outcome& outcome) const override;
 
   /// Another belief of the same instance.

@@ -20,7 +20,7 @@ constexpr int most_idle = 6;             // queries in a row whose actions were 
 constexpr int stages = 3;
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
-constexpr std::size_t search_sample = 4;  // times as many poses as long as nothing was met: they are cheap then
+constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
 bool has_met_something(const std::vector<belief::Trace>& history) {
@@ -44,7 +44,8 @@ Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOption
     : model_(std::move(model)),
       options_(options),
       library_(std::make_shared<action::ActionLibrary>(*model_->task)),
-      rng_(support::mix(options.seed ^ own_stream)) {
+      rng_(support::mix(options.seed ^ own_stream)),
+      sample_(std::isinf(options.budget_seconds) ? search_sample : 1.0) {
   check(options_);
 }
 
@@ -148,35 +149,36 @@ std::optional<int> Planner::followed(const belief::Belief& belief) {
   return std::nullopt;
 }
 
-/// Of the poses drawn for planning.
-Predictions Planner::predictions(const belief::Belief& belief) const {
+/// Of the poses drawn for planning, with what is known of them from the last call.
+void Planner::predict(const belief::Belief& belief) {
   std::vector<double> misses;
   for (const belief::Drawn& drawn : poses_) misses.push_back(drawn.miss);
   const double blur = belief::stop_blur(*model_->task, belief.sensing());
-  return {model_->task, belief::poses_of(poses_), blur, std::move(misses)};
+  auto predictions = std::make_shared<Predictions>(model_->task, belief::poses_of(poses_), blur, std::move(misses));
+  if (predictions_) predictions->take_over(*predictions_);
+  predictions_ = std::move(predictions);
 }
 
 /// Poses to plan on, by all that was seen so far; many as long as nothing was met.
 std::vector<belief::Drawn> Planner::draw(const belief::Belief& belief, const support::Deadline& deadline) {
-  const std::size_t times = is_bounded() && !has_met_something(belief.history()) ? search_sample : 1;
-  const std::size_t most = times * model_->options.particles;
+  const double times = is_bounded() && !has_met_something(belief.history()) ? sample_ : 1.0;
+  const auto most = static_cast<std::size_t>(times * static_cast<double>(model_->options.particles));
   if (belief.phase() == belief::Phase::poses) return belief.draw(most, rng_, poses_, deadline);
-  std::vector<belief::Drawn> drawn;
-  for (const geometry::Pose& pose : belief.draw_feasible(most, rng_, deadline)) drawn.push_back({pose, 0.0});
-  return drawn;
+  return belief.draw_feasible(most, rng_, poses_, deadline);
 }
 
 BeliefStatePtr Planner::on_voxels(const belief::Belief& belief, const support::Deadline& deadline) {
   std::vector<geometry::Pose> feasible;
   if (model_->options.likelihood == belief::Likelihood::calibrated)
-    feasible = belief.draw_feasible(model_->options.particles, rng_, deadline);
+    feasible = belief::poses_of(belief.draw_feasible(model_->options.particles, rng_, {}, deadline));
   return std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)
       ->start(belief.configuration(), belief.voxels());
 }
 
 BeliefStatePtr Planner::on_poses(const belief::Belief& belief) {
-  return std::make_shared<PoseProblem>(model_->task, library_, predictions(belief), belief.bits(),
-                                       options_.cost_per_bit, second_value_of(options_.solver))
+  predict(belief);
+  return std::make_shared<PoseProblem>(model_->task, library_, predictions_, belief.bits(), options_.cost_per_bit,
+                                       second_value_of(options_.solver))
       ->start(belief.configuration());
 }
 
@@ -184,16 +186,28 @@ BeliefStatePtr Planner::on_poses(const belief::Belief& belief) {
 void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   const bool in_phase = belief.phase() == belief::Phase::poses;
   if (standing_.stalls > 0 && standing_.stalls % patience == 0) poses_.clear();
+  policy_.reset();
   if (in_phase || is_bounded()) poses_ = draw(belief, deadline);
   const bool has_poses = in_phase || (is_bounded() && !poses_.empty());
   SearchOptions search = search_options(options_);
   search.bounded = search.bounded && has_poses;
   policy_ =
       std::make_unique<Policy>(Policy{Search(has_poses ? on_poses(belief) : on_voxels(belief, deadline), search)});
-  if (greedy_of(options_.solver) || (search.bounded && !has_met_something(belief.history())))
+  const bool searches = search.bounded && !has_met_something(belief.history());
+  if (greedy_of(options_.solver) || searches)
     policy_->search.expand_start(deadline);
   else
     policy_->search.run(deadline);
+  if (searches) fit_sample(deadline.elapsed_seconds() / options_.budget_seconds);
+}
+
+/// As many poses as there is time to weigh all motions for: twice as many while less than half of the budget is `used`,
+/// half as many where it was not enough.
+void Planner::fit_sample(double used) {
+  constexpr double least_sample = 0.5;
+  if (std::isinf(options_.budget_seconds)) return;
+  if (used >= 1.0) sample_ = std::max(least_sample, 0.5 * sample_);
+  if (used < 0.45) sample_ = std::min(search_sample, 2.0 * sample_);
 }
 
 /// Notes what there is to follow.

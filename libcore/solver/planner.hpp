@@ -61,9 +61,10 @@ class Planner {
   bool is_known(const action::Motion& motion) const;
   bool is_unpromising(const action::Motion& motion) const;
   std::vector<Touch> touched_in_vain(const belief::Belief& belief) const;
-  Predictions predictions(const belief::Belief& belief) const;
+  void predict(const belief::Belief& belief);
   bool is_bounded() const { return second_value_of(options_.solver) == SecondValue::upper_bound; }
   std::vector<belief::Drawn> draw(const belief::Belief& belief, const support::Deadline& deadline);
+  void fit_sample(double used);
   BeliefStatePtr on_voxels(const belief::Belief& belief, const support::Deadline& deadline);
   BeliefStatePtr on_poses(const belief::Belief& belief);
   void plan(const belief::Belief& belief, support::Deadline& deadline);
@@ -92,7 +93,9 @@ class Planner {
     bool halted = false;                 ///< since then, before an action's motion proper had begun
   };
   Standing standing_;
-  std::vector<belief::Drawn> poses_;  ///< of the last planning call on poses
+  double sample_;                             ///< times as many poses as long as nothing was met
+  std::vector<belief::Drawn> poses_;          ///< of the last planning call on poses
+  std::shared_ptr<Predictions> predictions_;  ///< of them
   std::unique_ptr<Policy> policy_;
   mutable std::vector<Alternative> alternatives_;  ///< once asked for
   std::atomic<bool> cancelled_{false};

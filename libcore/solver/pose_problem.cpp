@@ -20,12 +20,14 @@ using support::Bitset;
 namespace {
 
 constexpr int lines_per_side = 9;
-constexpr std::size_t going_on = 6;          // waypoints of a sweep after the last pose that it touches
-constexpr std::size_t inner_candidates = 2;  // insertion attempts considered below the start
-constexpr std::size_t least_walked = 12;     // poses for which a walk is weighed
-constexpr std::size_t most_swept = 150;      // poses for which sweeps are
-constexpr double same_seat = 0.0015;         // m between seated poses that one attempt may serve
-constexpr double lever = 0.02;               // m by which a turn counts as a shift there
+constexpr std::size_t going_on = 6;           // waypoints of a sweep after the last pose that it touches
+constexpr std::size_t inner_candidates = 2;   // insertion attempts considered below the start
+constexpr std::size_t most_anchored = 24;     // motions that a policy's cost is worked out after
+constexpr std::size_t weighed_carefully = 8;  // choices
+constexpr std::size_t least_walked = 12;      // poses for which a walk is weighed
+constexpr std::size_t most_swept = 150;       // poses for which sweeps are
+constexpr double same_seat = 0.0015;          // m between seated poses that one attempt may serve
+constexpr double lever = 0.02;                // m by which a turn counts as a shift there
 
 std::uint64_t salt_of(const JointVector& q) { return action::path_id({q}); }
 
@@ -41,32 +43,29 @@ class PoseState : public BeliefState {
   const JointVector& configuration() const override { return q_; }
   std::size_t support_size() const override { return members_.count(); }
 
-  Values heuristic() const override {
-    std::vector<std::size_t> group;
-    members_.for_each([&](std::size_t pose) { group.push_back(pose); });
-    return values(problem_->task_->base_from_tool(q_), group);
-  }
+  Values heuristic() const override { return values(problem_->task_->base_from_tool(q_), indices(members_)); }
 
-  std::vector<Choice> choices() const override {
+  std::vector<Choice> choices(const support::Deadline& deadline) const override {
     std::vector<Choice> result;
     const auto consider = [&](const MotionPtr& motion) {
-      if (!motion) return;
+      if (!motion || (!result.empty() && (at_start_ ? deadline.cancelled() : deadline.spent()))) return;
       Choice choice = weigh(motion);
       const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
       const bool moves = !motion->anchored && choice.outcomes.front().waypoint == motion->path.size();
       if (informs || moves) result.push_back(std::move(choice));
     };
-    for (const MotionPtr& motion : problem_->anchored(q_)) consider(motion);
-    for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);
     const std::size_t attempts = at_start_
                                      ? static_cast<std::size_t>(problem_->task_->options().actions.insertion_candidates)
                                      : inner_candidates;
+    for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);
     for (const MotionPtr& motion : problem_->insertions(members_, q_, attempts)) consider(motion);
+    for (const MotionPtr& motion : anchored()) consider(motion);
+    if (at_start_ && problem_->walk_) weigh_carefully(result, deadline);
     return result;
   }
 
   BeliefStatePtr successor(const Choice& choice, const Outcome& outcome) const override {
-    Bitset left = problem_->predictions_.subset(choice.motion, members_, outcome.waypoint, outcome.last);
+    Bitset left = problem_->predictions_->subset(choice.motion, members_, outcome.waypoint, outcome.last);
     const auto& path = choice.motion->path;
     const bool contact = outcome.waypoint < path.size();
     return std::make_shared<PoseState>(problem_, contact ? path[outcome.waypoint - 1] : path.back(), std::move(left),
@@ -74,13 +73,48 @@ class PoseState : public BeliefState {
   }
 
  private:
+  static std::vector<std::size_t> indices(const Bitset& members) {
+    std::vector<std::size_t> poses;
+    members.for_each([&](std::size_t pose) { poses.push_back(pose); });
+    return poses;
+  }
+
+  /// The upper bounds of the choices that have the least: they decide.
+  void weigh_carefully(std::vector<Choice>& choices, const support::Deadline& deadline) const {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      double cost = choices[i].expected_cost();
+      for (const Outcome& outcome : choices[i].outcomes)
+        cost += outcome.probability * outcome.heuristic[static_cast<int>(ValueType::inadmissible)];
+      order.emplace_back(cost, i);
+    }
+    std::sort(order.begin(), order.end());
+    order.resize(std::min(order.size(), weighed_carefully));
+    for (const auto& [cost, i] : order)
+      for (Outcome& outcome : choices[i].outcomes) {
+        if (outcome.goal || deadline.spent()) continue;
+        const MotionPtr& motion = choices[i].motion;
+        const Bitset left = problem_->predictions_->subset(motion, members_, outcome.waypoint, outcome.last);
+        const Pose& there = motion->bodies.base_from_body(outcome.waypoint - 1, 0);
+        double& bound = outcome.heuristic[static_cast<int>(ValueType::inadmissible)];
+        bound = std::min(bound, problem_->simulated(indices(left), there, WalkPolicy::careful));
+      }
+  }
+
+  /// All, or where each takes a policy's cost to weigh those that promise the most.
+  std::vector<MotionPtr> anchored() const {
+    if (!problem_->policy_) return problem_->anchored(q_);
+    return problem_->policy_->promising(indices(members_), problem_->task_->base_from_tool(q_), most_anchored);
+  }
+
   /// h_ad is the mean cost of going straight to the seats; h_inad adds what the missing bits are worth.
   Values values(const Pose& base_from_tool, const std::vector<std::size_t>& group) const {
     double direct = 0.0;
     for (const std::size_t pose : group) direct += problem_->direct_cost(base_from_tool, pose);
     direct /= static_cast<double>(group.size());
-    if (problem_->policy_) return {direct, problem_->simulated(group, base_from_tool)};
-    const double share = static_cast<double>(group.size()) / static_cast<double>(problem_->predictions_.poses().size());
+    if (problem_->policy_) return {direct, problem_->simulated(group, base_from_tool, WalkPolicy::quick)};
+    const double share =
+        static_cast<double>(group.size()) / static_cast<double>(problem_->predictions_->poses().size());
     const double bits = std::max(std::log2(static_cast<double>(group.size())), problem_->bits_ + std::log2(share));
     return {direct, direct + problem_->cost_per_bit_ * std::max(0.0, bits)};
   }
@@ -92,7 +126,7 @@ class PoseState : public BeliefState {
                                          : 0.0;
     Choice choice{motion, {}};
     const std::size_t least = least_group(members_.count(), problem_->dimensions());
-    for (const auto& [waypoint, last, group, expected] : problem_->predictions_.split(motion, members_, least)) {
+    for (const auto& [waypoint, last, group, expected] : problem_->predictions_->split(motion, members_, least)) {
       Outcome outcome;
       outcome.waypoint = waypoint;
       outcome.last = last;
@@ -116,28 +150,31 @@ class PoseState : public BeliefState {
 };
 
 PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
-                         Predictions predictions, double bits, double cost_per_bit, SecondValue second)
+                         std::shared_ptr<Predictions> predictions, double bits, double cost_per_bit, SecondValue second)
     : task_(std::move(task)),
       library_(std::move(library)),
       predictions_(std::move(predictions)),
+      region_(bounds()),
+      plane_(action::retreat_plane(*task_, region_)),
       bits_(bits),
       cost_per_bit_(cost_per_bit),
       second_(second) {
-  for (const Pose& pose : predictions_.poses())
+  for (const Pose& pose : predictions_->poses())
     for (std::size_t seat = 0; seat < seats(); ++seat) seated_.push_back(task_->scene().seated(pose, seat));
   for (std::size_t seat = 0; seat < seated_.size(); ++seat) attempts_.push_back(attempt_at(seat));
   find_neighbours();
 }
 
 BeliefStatePtr PoseProblem::start(const JointVector& q) {
+  auto state = std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_->poses().size(), true), true);
   if (second_ == SecondValue::upper_bound) {
     policy_ = rate_policy(q);
-    walk_ = std::make_unique<WalkPolicy>(task_, library_->lattice_through(q), predictions_, *policy_,
+    walk_ = std::make_unique<WalkPolicy>(task_, library_->lattice_through(q), *predictions_, *policy_,
                                          task_->base_from_tool(q), dimensions());
+    return state;
   }
-  auto state = std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_.poses().size(), true), true);
   std::vector<double> cost, gained;
-  for (const Choice& choice : state->choices()) {
+  for (const Choice& choice : state->choices(support::Deadline::unlimited())) {
     cost.push_back(choice.expected_cost());
     gained.push_back(choice.information());
   }
@@ -146,10 +183,10 @@ BeliefStatePtr PoseProblem::start(const JointVector& q) {
 }
 
 /// The cost of the cheaper policy, where both may be; where many poses are left, sweeps one by one are not weighed.
-double PoseProblem::simulated(const std::vector<std::size_t>& group, const Pose& base_from_tool) {
-  if (group.size() > most_swept) return walk_->cost(group, base_from_tool);
+double PoseProblem::simulated(const std::vector<std::size_t>& group, const Pose& base_from_tool, std::size_t beam) {
+  if (group.size() > most_swept) return walk_->cost(group, base_from_tool, beam);
   const double cost = policy_->cost(group, base_from_tool);
-  return group.size() < least_walked ? cost : std::min(cost, walk_->cost(group, base_from_tool));
+  return group.size() < least_walked ? cost : std::min(cost, walk_->cost(group, base_from_tool, beam));
 }
 
 int PoseProblem::dimensions() const {
@@ -158,12 +195,12 @@ int PoseProblem::dimensions() const {
 }
 
 bool PoseProblem::seated(const Motion& motion, std::size_t pose) const {
-  return task_->scene().is_seated(motion.bodies.base_from_body(motion.path.size() - 1, 0), predictions_.poses()[pose]);
+  return task_->scene().is_seated(motion.bodies.base_from_body(motion.path.size() - 1, 0), predictions_->poses()[pose]);
 }
 
 const std::vector<MotionPtr>& PoseProblem::anchored(const JointVector& near) {
   if (!anchored_made_) {
-    anchored_ = action::probes(*task_, region(), near, lines_per_side);
+    anchored_ = library_->probes_in(region_, near, lines_per_side);
     for (MotionPtr& motion : anchored_)
       if (motion->kind == action::Kind::sweep) motion = ending_with_contacts(motion);
   }
@@ -174,15 +211,19 @@ const std::vector<MotionPtr>& PoseProblem::anchored(const JointVector& near) {
 /// Without what it goes on after the last pose that it touches, but for a little.
 MotionPtr PoseProblem::ending_with_contacts(const MotionPtr& motion) {
   std::size_t last = 0;
-  for (const std::int32_t first_contact : predictions_.first_contacts(motion))
+  for (const std::int32_t first_contact : predictions_->first_contacts(motion))
     if (const auto at = static_cast<std::size_t>(first_contact); at < motion->path.size()) last = std::max(last, at);
   const std::size_t waypoints = last + 1 + going_on;
-  return last > 0 && waypoints < motion->path.size() ? action::truncated(*task_, *motion, waypoints) : motion;
+  if (last == 0 || waypoints >= motion->path.size()) return motion;
+  const MotionPtr part = action::truncated(*task_, *motion, waypoints);
+  predictions_->begins_as(part, motion);
+  return part;
 }
 
 MotionPtr PoseProblem::insertion_at(std::size_t seat, const JointVector& near) {
   const auto [entry, is_new] = insertions_.try_emplace(seat, nullptr);
-  if (is_new) entry->second = action::insertion(*task_, predictions_.poses()[seat / seats()], near, seat % seats());
+  if (is_new)
+    entry->second = action::insertion(*task_, predictions_->poses()[seat / seats()], near, seat % seats(), plane_);
   return entry->second;
 }
 
@@ -241,9 +282,9 @@ std::vector<std::size_t> PoseProblem::seats_of(const Bitset& members, const Join
 /// From the retreat plane along the approach axis, as `action::insertion` has it.
 Attempt PoseProblem::attempt_at(std::size_t seat) const {
   const scene::Scene& scene = task_->scene();
-  const Vector3 axis = predictions_.poses()[seat / seats()].linear() * scene.target.approach_axis;
+  const Vector3 axis = predictions_->poses()[seat / seats()].linear() * scene.target.approach_axis;
   const Pose search_from_base = task_->frame().base_from_search.inverse();
-  const double past_plane = (search_from_base * seated_[seat].translation()).z() - task_->frame().standoff;
+  const double past_plane = (search_from_base * seated_[seat].translation()).z() - plane_;
   const double to_plane = std::max(scene.target.approach_depth, past_plane / (search_from_base.linear() * axis).z());
   Attempt attempt{seated_[seat], seated_[seat], task_->options().cost.metre * to_plane};
   attempt.base_from_start.translation() -= to_plane * axis;
@@ -254,14 +295,14 @@ Attempt PoseProblem::attempt_at(std::size_t seat) const {
 std::unique_ptr<RatePolicy> PoseProblem::rate_policy(const JointVector& q) {
   std::vector<Attempt> attempts;
   std::vector<Bitset> served;
-  for (std::size_t pose = 0; pose < predictions_.poses().size(); ++pose) {
+  for (std::size_t pose = 0; pose < predictions_->poses().size(); ++pose) {
     attempts.push_back(attempts_[pose * seats()]);
-    served.emplace_back(predictions_.poses().size());
+    served.emplace_back(predictions_->poses().size());
     neighbours_[pose * seats()].for_each([&](std::size_t seat) {
       if (seat % seats() == 0) served.back().set(seat / seats());
     });
   }
-  return std::make_unique<RatePolicy>(task_, predictions_, anchored(q), std::move(attempts), std::move(served),
+  return std::make_unique<RatePolicy>(task_, *predictions_, anchored(q), std::move(attempts), std::move(served),
                                       dimensions());
 }
 
@@ -288,11 +329,11 @@ double PoseProblem::direct_cost(const Pose& base_from_tool, std::size_t pose) co
 }
 
 /// The box in the search frame of the target at every pose.
-geometry::Box PoseProblem::region() const {
+geometry::Box PoseProblem::bounds() const {
   geometry::Box box;
   const Pose search_from_base = task_->frame().base_from_search.inverse();
   const geometry::Box local = geometry::bounds(task_->scene().target.mesh);
-  for (const Pose& pose : predictions_.poses())
+  for (const Pose& pose : predictions_->poses())
     for (int corner = 0; corner < 8; ++corner) {
       const Vector3 p(corner & 1 ? local.high.x() : local.low.x(), corner & 2 ? local.high.y() : local.low.y(),
                       corner & 4 ? local.high.z() : local.low.z());

@@ -18,7 +18,8 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   /// `predictions`: of the poses. `bits`: log2 of how many tolerances the full belief spans; `cost_per_bit` in units of
   /// cost.
   PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
-              Predictions predictions, double bits, double cost_per_bit, SecondValue second = SecondValue::greedy);
+              std::shared_ptr<Predictions> predictions, double bits, double cost_per_bit,
+              SecondValue second = SecondValue::greedy);
 
   /// The belief at the start: all poses.
   BeliefStatePtr start(const robot::JointVector& q);
@@ -37,14 +38,16 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   std::vector<std::size_t> seats_of(const support::Bitset& members, const robot::JointVector& q) const;
   Attempt attempt_at(std::size_t seat) const;
   std::unique_ptr<RatePolicy> rate_policy(const robot::JointVector& q);
-  double simulated(const std::vector<std::size_t>& group, const geometry::Pose& base_from_tool);
+  double simulated(const std::vector<std::size_t>& group, const geometry::Pose& base_from_tool, std::size_t beam);
   double seat_cost(const geometry::Pose& base_from_tool, std::size_t seat) const;
   double direct_cost(const geometry::Pose& base_from_tool, std::size_t pose) const;
-  geometry::Box region() const;
+  geometry::Box bounds() const;
 
   std::shared_ptr<const action::Task> task_;
   std::shared_ptr<action::ActionLibrary> library_;
-  Predictions predictions_;
+  std::shared_ptr<Predictions> predictions_;
+  geometry::Box region_;                     ///< of the target at all poses, search frame
+  double plane_;                             ///< where anchored motions set out: its retreat plane, search frame
   std::vector<geometry::Pose> seated_;       ///< tool link, base frame: the seats of the first pose, of the next, ...
   std::vector<support::Bitset> neighbours_;  ///< by seat: those that one attempt may serve, itself among them
   std::vector<Attempt> attempts_;            ///< by seat

@@ -2,10 +2,15 @@
 #include "solver/predictions.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 
+#include "support/rng.hpp"
+
 namespace tactus::solver {
+
+using action::MotionPtr;
 
 std::size_t least_group(std::size_t count, int dimensions) {
   const double left = dimensions > 0 ? std::pow(static_cast<double>(count), 1.0 - 1.0 / dimensions) : 1.0;
@@ -18,14 +23,52 @@ Predictions::Predictions(std::shared_ptr<const action::Task> task, std::vector<g
   misses_.resize(poses_.size(), 0.0);
 }
 
-Predictions::Row& Predictions::row(const action::MotionPtr& motion) {
+Predictions::Row& Predictions::row(const MotionPtr& motion) {
   const auto [entry, is_new] = rows_.try_emplace(motion.get());
   const std::vector<std::int32_t> unknown(is_new ? poses_.size() : 0, -1);
   if (is_new) entry->second = {motion, unknown, unknown};
+  entry->second.asked_for = true;
   return entry->second;
 }
 
-std::size_t Predictions::first_contact(const action::MotionPtr& motion, std::size_t pose) {
+void Predictions::take_over(const Predictions& earlier) {
+  if (earlier.blur_ != blur_) return;
+  std::unordered_map<std::uint64_t, std::size_t> before;
+  for (std::size_t pose = 0; pose < earlier.poses_.size(); ++pose) before.emplace(earlier.key_of(pose), pose);
+  std::vector<std::pair<std::size_t, std::size_t>> same;  // here, and there
+  for (std::size_t pose = 0; pose < poses_.size(); ++pose)
+    if (const auto there = before.find(key_of(pose)); there != before.end() &&
+                                                      earlier.poses_[there->second].matrix() == poses_[pose].matrix() &&
+                                                      earlier.misses_[there->second] == misses_[pose])
+      same.emplace_back(pose, there->second);
+  for (const auto& [motion, row] : earlier.rows_) {
+    if (!row.asked_for || row.motion.use_count() == 1) continue;
+    Row& taken = rows_[motion];
+    taken = {row.motion, std::vector<std::int32_t>(poses_.size(), -1), std::vector<std::int32_t>(poses_.size(), -1)};
+    for (const auto& [here, there] : same) {
+      taken.first_contact[here] = row.first_contact[there];
+      taken.first_near[here] = row.first_near[there];
+    }
+  }
+}
+
+std::uint64_t Predictions::key_of(std::size_t pose) const {
+  std::uint64_t key = std::bit_cast<std::uint64_t>(misses_[pose]);
+  for (const double value : poses_[pose].affine().reshaped())
+    key = support::mix(key ^ std::bit_cast<std::uint64_t>(value));
+  return key;
+}
+
+void Predictions::begins_as(const MotionPtr& part, const MotionPtr& whole) {
+  const auto end = static_cast<std::int32_t>(part->path.size());
+  Row known = row(whole);
+  for (std::vector<std::int32_t>* firsts : {&known.first_contact, &known.first_near})
+    for (std::int32_t& first : *firsts) first = std::min(first, end);
+  known.motion = part;
+  rows_[part.get()] = std::move(known);
+}
+
+std::size_t Predictions::first_contact(const MotionPtr& motion, std::size_t pose) {
   std::int32_t& stored = row(motion).first_contact[pose];
   if (stored < 0) {
     const contact::TargetContact& target = task_->target_contact();
@@ -37,7 +80,7 @@ std::size_t Predictions::first_contact(const action::MotionPtr& motion, std::siz
   return static_cast<std::size_t>(stored);
 }
 
-std::size_t Predictions::first_near(const action::MotionPtr& motion, std::size_t pose) {
+std::size_t Predictions::first_near(const MotionPtr& motion, std::size_t pose) {
   std::int32_t& stored = row(motion).first_near[pose];
   if (stored < 0 && blur_ > 0.0)
     stored = static_cast<std::int32_t>(
@@ -46,30 +89,29 @@ std::size_t Predictions::first_near(const action::MotionPtr& motion, std::size_t
   return static_cast<std::size_t>(stored);
 }
 
-const std::vector<std::int32_t>& Predictions::first_nears(const action::MotionPtr& motion) {
+const std::vector<std::int32_t>& Predictions::first_nears(const MotionPtr& motion) {
   for (std::size_t pose = 0; pose < poses_.size(); ++pose) first_near(motion, pose);
   return rows_.at(motion.get()).first_near;
 }
 
-bool Predictions::are_mostly_near(const action::MotionPtr& motion, const std::vector<std::size_t>& poses,
+bool Predictions::are_mostly_near(const MotionPtr& motion, const std::vector<std::size_t>& poses,
                                   std::size_t waypoint) {
   const auto near =
       std::count_if(poses.begin(), poses.end(), [&](std::size_t pose) { return first_near(motion, pose) <= waypoint; });
   return 2 * static_cast<std::size_t>(near) > poses.size();
 }
 
-const std::vector<std::int32_t>& Predictions::first_contacts(const action::MotionPtr& motion) {
+const std::vector<std::int32_t>& Predictions::first_contacts(const MotionPtr& motion) {
   for (std::size_t pose = 0; pose < poses_.size(); ++pose) first_contact(motion, pose);
   return rows_.at(motion.get()).first_contact;
 }
 
 /// Where a pose that is not touched is grazed first; the path's size if it is not.
-std::size_t Predictions::grazed(const action::MotionPtr& motion, std::size_t pose) {
+std::size_t Predictions::grazed(const MotionPtr& motion, std::size_t pose) {
   return may_graze(motion) ? first_near(motion, pose) : motion->path.size();
 }
 
-std::vector<Group> Predictions::split(const action::MotionPtr& motion, const support::Bitset& members,
-                                      std::size_t least) {
+std::vector<Group> Predictions::split(const MotionPtr& motion, const support::Bitset& members, std::size_t least) {
   const std::size_t untouched = motion->path.size();
   std::map<std::size_t, std::vector<std::size_t>> touched;
   std::map<std::size_t, double> expected;
@@ -103,7 +145,7 @@ std::vector<Group> Predictions::split(const action::MotionPtr& motion, const sup
   return groups;
 }
 
-support::Bitset Predictions::subset(const action::MotionPtr& motion, const support::Bitset& members, std::size_t first,
+support::Bitset Predictions::subset(const MotionPtr& motion, const support::Bitset& members, std::size_t first,
                                     std::size_t last) {
   support::Bitset kept(members.size());
   members.for_each([&](std::size_t pose) {

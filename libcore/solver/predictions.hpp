@@ -36,6 +36,13 @@ class Predictions {
 
   const std::vector<geometry::Pose>& poses() const { return poses_; }
 
+  /// What was found for an earlier planning call, of the poses that are the same and off by as much, on the motions
+  /// that it asked for and somebody else still holds. The same answers as without.
+  void take_over(const Predictions& earlier);
+
+  /// `part` is how `whole`, which is anchored, begins: it need not be looked at again.
+  void begins_as(const action::MotionPtr& part, const action::MotionPtr& whole);
+
   /// The waypoint of the first contact that counts; the path's size if there is none.
   std::size_t first_contact(const action::MotionPtr& motion, std::size_t pose);
 
@@ -59,9 +66,11 @@ class Predictions {
     action::MotionPtr motion;                 ///< kept, so that no address is used twice
     std::vector<std::int32_t> first_contact;  ///< by pose; -1: not computed yet
     std::vector<std::int32_t> first_near;     ///< within the blur; as above
+    bool asked_for = false;                   ///< since it was taken over
   };
 
   Row& row(const action::MotionPtr& motion);
+  std::uint64_t key_of(std::size_t pose) const;
   bool may_graze(const action::MotionPtr& motion) const { return blur_ > 0.0 && !motion->anchored; }
   std::size_t grazed(const action::MotionPtr& motion, std::size_t pose);
   std::size_t first_near(const action::MotionPtr& motion, std::size_t pose);

@@ -6,6 +6,7 @@
 
 #include "action/motion.hpp"
 #include "support/bitset.hpp"
+#include "support/deadline.hpp"
 
 namespace tactus::solver {
 
@@ -55,8 +56,10 @@ class BeliefState {
   virtual Values heuristic() const = 0;
   virtual std::size_t support_size() const = 0;  ///< poses or voxels that the belief rests on
 
-  /// Every motion worth considering with what may come of it: the expensive part of an expansion.
-  virtual std::vector<Choice> choices() const = 0;
+  /// Every motion worth considering with what may come of it: the expensive part of an expansion. Some of them, at
+  /// least the first, if the deadline is spent before all are weighed; where planning starts, only if it is cancelled:
+  /// the best of a few may be far from any good.
+  virtual std::vector<Choice> choices(const support::Deadline& deadline) const = 0;
 
   /// The belief after an outcome that is not the goal.
   virtual std::shared_ptr<const BeliefState> successor(const Choice& choice, const Outcome& outcome) const = 0;

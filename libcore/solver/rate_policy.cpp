@@ -62,6 +62,18 @@ std::vector<double> RatePolicy::costs(const Members& members, const Pose& base_f
   return costs;
 }
 
+std::vector<MotionPtr> RatePolicy::promising(const Members& members, const Pose& base_from_tool, std::size_t most) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t motion = 0; motion < motions_.size(); ++motion)
+    if (const double rate = rate_of(motion, members, &base_from_tool); rate > least_rate)
+      order.emplace_back(-rate, motion);
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), most));
+  std::vector<MotionPtr> found;
+  for (const auto& [rate, motion] : order) found.push_back(motions_[motion]);
+  return found;
+}
+
 double RatePolicy::lead(const Pose& base_from_tool, const Pose& base_from_start) const {
   return task_->options().cost.action + action::transit_cost(*task_, base_from_tool, base_from_start);
 }

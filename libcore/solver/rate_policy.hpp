@@ -33,6 +33,11 @@ class RatePolicy {
   /// The same by member: what it costs if the target is at that one, of which only the policy does not know.
   std::vector<double> costs(const Members& members, const geometry::Pose& base_from_tool);
 
+  /// Up to `most` of its motions that tell something, those with the most information per cost from where the tool is
+  /// first.
+  std::vector<action::MotionPtr> promising(const Members& members, const geometry::Pose& base_from_tool,
+                                           std::size_t most);
+
  private:
   struct Plan {
     geometry::Pose base_from_start = geometry::Pose::Identity();  ///< of the first motion

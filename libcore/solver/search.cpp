@@ -89,7 +89,7 @@ bool Search::trial(support::Deadline& deadline, ValueType guide) {
   int node = start;
   for (int depth = 0; depth < options_.horizon && !deadline.spent(); ++depth) {
     if (!nodes_[node].expanded) {
-      expand(node, deadline);
+      if (!expand(node, deadline)) break;
       changed = true;
     }
     changed = update(node) || changed;
@@ -122,13 +122,21 @@ std::optional<std::size_t> Search::outcome_to_follow(int node, std::size_t choic
   return widest;
 }
 
-void Search::expand(int index, support::Deadline& deadline) {
+/// What there was not time for is left undone. At the start all is weighed, late or not, unless somebody cancels: what
+/// was weighed by then is kept, and says nothing of what is the least possible.
+bool Search::expand(int index, support::Deadline& deadline) {
   Node& node = nodes_[index];
-  node.choices = node.state->choices();
+  std::vector<Choice> choices = node.state->choices(deadline);
+  const bool is_cut_short = index == start ? deadline.cancelled() : deadline.spent();
+  if (is_cut_short && index != start) return false;
+  node.choices = std::move(choices);
   for (const Choice& choice : node.choices) node.children.emplace_back(choice.outcomes.size(), -1);
   node.expanded = true;
   deadline.count_expansion();
+  const double least = node.value[static_cast<int>(ValueType::admissible)];
   update(index);
+  if (is_cut_short) node.value[static_cast<int>(ValueType::admissible)] = least;
+  return true;
 }
 
 /// V(b) := min over a of Q(b, a), for both types.

@@ -70,7 +70,7 @@ class Search {
   bool converged() const;
   std::optional<std::size_t> outcome_to_follow(int node, std::size_t choice) const;
   double ahead(int node, std::size_t choice, std::size_t outcome, ValueType type) const;
-  void expand(int node, support::Deadline& deadline);
+  bool expand(int node, support::Deadline& deadline);
   bool update(int node);
   std::optional<std::size_t> best_by(int node, ValueType type, const std::vector<bool>& banned = {}) const;
   int follow(int node, std::size_t choice, std::size_t outcome);

@@ -121,11 +121,12 @@ class VoxelState : public BeliefState {
                : problem_->heuristic(static_cast<double>(count_), nearest(problem_->model_->task->base_from_tool(q_)));
   }
 
-  std::vector<Choice> choices() const override {
+  std::vector<Choice> choices(const support::Deadline& deadline) const override {
     if (done()) return {};
     std::vector<Choice> result;
     const BoxCounts counts(voxels_.possibly_occupied(), grid());
     const auto consider = [&](const MotionPtr& motion) {
+      if (!result.empty() && deadline.cancelled()) return;
       Choice choice = weigh(motion, counts);
       const bool moves = !motion->anchored && choice.outcomes.front().waypoint == motion->path.size();
       if (choice.outcomes.size() > 1 || moves) result.push_back(std::move(choice));
@@ -294,7 +295,7 @@ BeliefStatePtr VoxelProblem::start(const JointVector& q, const VoxelBelief& voxe
   cost_per_bit_ = 1.0;
   const double bits = state->heuristic()[1] - state->heuristic()[0];
   std::vector<double> cost, gained;
-  for (const Choice& choice : state->choices()) {
+  for (const Choice& choice : state->choices(support::Deadline::unlimited())) {
     cost.push_back(choice.expected_cost());
     gained.push_back(bits);
     for (const Outcome& outcome : choice.outcomes)

@@ -2,6 +2,7 @@
 #include "solver/walk_policy.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace tactus::solver {
@@ -12,11 +13,17 @@ using geometry::Pose;
 using support::Bitset;
 
 constexpr double blocked = 1e300;
-constexpr std::size_t beam = 24;
 constexpr double near_by = 0.08;        // m to the nearest place, which a walk may begin at then
 constexpr int longest_walk = 160;       // steps
 constexpr double least_missing = 0.02;  // share of the poses for which a walk does not go on
 constexpr double given_up = 2.0;        // m that it is worth to walk rather than leave a pose untouched
+
+std::size_t count_without(const Bitset& set, const Bitset& other) {
+  std::size_t count = 0;
+  for (std::size_t w = 0; w < set.words().size(); ++w)
+    count += static_cast<std::size_t>(std::popcount(set.words()[w] & ~other.words()[w]));
+  return count;
+}
 
 }  // namespace
 
@@ -27,17 +34,16 @@ WalkPolicy::WalkPolicy(std::shared_ptr<const action::Task> task, std::shared_ptr
       predictions_(predictions),
       after_(after),
       dimensions_(dimensions),
-      touched_(lattice_->size() * action::Lattice::directions),
-      costs_after_(touched_.size()),
-      step_costs_(touched_.size()) {
+      steps_(lattice_->size() * action::Lattice::directions),
+      costs_after_(steps_.size()) {
   const Bitset all(predictions_.poses().size(), true);
-  const Walk first = best_walk(all, base_from_tool, to_go_);
+  const Walk first = best_walk(all, base_from_tool, careful);
   double length = 0.0, found = 0.0;
   Bitset left = all;
   for (const auto& [place, direction] : first.steps) {
     const std::size_t before = left.count();
-    left.and_not(touched(place, direction));
-    length += *step_cost(place, direction);
+    left.and_not(step(place, direction).touched);
+    length += step(place, direction).cost;
     found += static_cast<double>(before - left.count()) * length;
   }
   const std::size_t count = all.count() - left.count();
@@ -52,31 +58,29 @@ double WalkPolicy::with_actions(double way) const {
   return longest > 0.0 ? way * (1.0 + options.cost.action / longest) : way;
 }
 
-/// None where it is blocked. On the retreat plane no way is looked for, and nothing touched.
-std::optional<double> WalkPolicy::step_cost(std::size_t place, std::size_t direction) const {
-  std::optional<double>& cost = step_costs_[place * action::Lattice::directions + direction];
-  if (!cost) {
-    const auto next = lattice_->neighbour(place, direction);
-    const bool is_across = next && lattice_->is_on_plane(place) && lattice_->is_on_plane(*next);
-    const MotionPtr step = next && !is_across ? lattice_->step(place, direction) : nullptr;
-    cost = is_across ? with_actions(task_->options().cost.metre * lattice_->pitch())
-           : step    ? with_actions(step->cost_to.back())
-                     : blocked;
-  }
-  return *cost < blocked ? cost : std::nullopt;
+const WalkPolicy::Step& WalkPolicy::step(std::size_t place, std::size_t direction) const {
+  std::optional<Step>& kept = steps_[place * action::Lattice::directions + direction];
+  if (!kept) kept = made_step(place, direction);
+  return *kept;
 }
 
-const Bitset& WalkPolicy::touched(std::size_t place, std::size_t direction) const {
-  Bitset& set = touched_[place * action::Lattice::directions + direction];
-  if (set.size() == 0) {
-    set = Bitset(predictions_.poses().size());
-    if (lattice_->is_on_plane(place) && lattice_->is_on_plane(*lattice_->neighbour(place, direction))) return set;
-    const MotionPtr step = lattice_->step(place, direction);
-    const std::vector<std::int32_t>& first_contacts = predictions_.first_contacts(step);
-    for (std::size_t pose = 0; pose < first_contacts.size(); ++pose)
-      if (first_contacts[pose] < static_cast<std::int32_t>(step->path.size())) set.set(pose);
+/// On the retreat plane no way is looked for, and nothing touched.
+WalkPolicy::Step WalkPolicy::made_step(std::size_t place, std::size_t direction) const {
+  Step made{0, blocked, Bitset(predictions_.poses().size())};
+  const auto next = lattice_->neighbour(place, direction);
+  if (!next) return made;
+  made.to = *next;
+  if (lattice_->is_on_plane(place) && lattice_->is_on_plane(*next)) {
+    made.cost = with_actions(task_->options().cost.metre * lattice_->pitch());
+    return made;
   }
-  return set;
+  const MotionPtr motion = lattice_->step(place, direction);
+  if (!motion) return made;
+  made.cost = with_actions(motion->cost_to.back());
+  const std::vector<std::int32_t>& first_contacts = predictions_.first_contacts(motion);
+  for (std::size_t pose = 0; pose < first_contacts.size(); ++pose)
+    if (first_contacts[pose] < static_cast<std::int32_t>(motion->path.size())) made.touched.set(pose);
+  return made;
 }
 
 /// By pose that it touches, the rest of what it costs from the step's beginning: as if all were still possible that the
@@ -84,17 +88,17 @@ const Bitset& WalkPolicy::touched(std::size_t place, std::size_t direction) cons
 const std::vector<double>& WalkPolicy::after_step(std::size_t place, std::size_t direction) {
   std::vector<double>& costs = costs_after_[place * action::Lattice::directions + direction];
   if (!costs.empty()) return costs;
-  const MotionPtr step = lattice_->step(place, direction);
+  const MotionPtr motion = lattice_->step(place, direction);
   costs.assign(predictions_.poses().size(), 0.0);
-  const Bitset& met = touched(place, direction);
-  for (const Group& group : predictions_.split(step, met, least_group(met.count(), dimensions_))) {
-    if (group.first >= step->path.size()) continue;
+  const Bitset& met = step(place, direction).touched;
+  for (const Group& group : predictions_.split(motion, met, least_group(met.count(), dimensions_))) {
+    if (group.first >= motion->path.size()) continue;
     RatePolicy::Members poses;
     for (const std::size_t pose : group.poses)
       if (met.test(pose)) poses.push_back(pose);
     if (poses.empty()) continue;
-    const std::vector<double> then = after_.costs(poses, step->bodies.base_from_body(group.first - 1, 0));
-    for (std::size_t i = 0; i < poses.size(); ++i) costs[poses[i]] = step->cost_to[group.first] + then[i];
+    const std::vector<double> then = after_.costs(poses, motion->bodies.base_from_body(group.first - 1, 0));
+    for (std::size_t i = 0; i < poses.size(); ++i) costs[poses[i]] = motion->cost_to[group.first] + then[i];
   }
   return costs;
 }
@@ -104,10 +108,10 @@ std::vector<WalkPolicy::Stand> WalkPolicy::entries(const Bitset& members, const 
   const std::size_t count = members.count();
   std::vector<Stand> stands;
   const auto enter = [&](std::size_t place, double spent) {
-    stands.push_back({place, 0, -1, members, count, spent, spent});
+    stands.push_back({place, 0, -1, count, spent, spent, members});
   };
   std::size_t nearest = 0;
-  double least = 1e300;
+  double least = near_by;
   for (std::size_t place = 0; place < lattice_->size(); ++place) {
     const Pose& there = lattice_->base_from_tool(place);
     if (lattice_->is_on_plane(place)) {
@@ -117,18 +121,18 @@ std::vector<WalkPolicy::Stand> WalkPolicy::entries(const Bitset& members, const 
     const double distance = (there.translation() - base_from_tool.translation()).norm();
     if (distance < least) least = distance, nearest = place;
   }
+  const action::CostWeights& weights = task_->options().cost;
   if (least < near_by)
-    enter(nearest, task_->options().cost.metre * least +
-                       task_->options().cost.radian *
-                           geometry::angle_between(base_from_tool, lattice_->base_from_tool(nearest)));
+    enter(nearest, weights.metre * least +
+                       weights.radian * geometry::angle_between(base_from_tool, lattice_->base_from_tool(nearest)));
   return stands;
 }
 
-WalkPolicy::Walk WalkPolicy::best_walk(const Bitset& members, const Pose& base_from_tool, double to_go) const {
+WalkPolicy::Walk WalkPolicy::best_walk(const Bitset& members, const Pose& base_from_tool, std::size_t beam) const {
   const auto total = static_cast<double>(members.count());
   const auto key = [&](const Stand& stand) {
     const double missing = static_cast<double>(stand.count) / total;
-    return stand.expected + to_go * missing * missing * total / static_cast<double>(members.size());
+    return stand.expected + to_go_ * missing * missing * total / static_cast<double>(members.size());
   };
   std::vector<Stand> stands = entries(members, base_from_tool);
   std::vector<int> current(stands.size());
@@ -140,14 +144,13 @@ WalkPolicy::Walk WalkPolicy::best_walk(const Bitset& members, const Pose& base_f
     for (const int at : current)
       for (std::size_t direction = 0; direction < action::Lattice::directions; ++direction) {
         const Stand& from = stands[static_cast<std::size_t>(at)];
-        const auto cost = step_cost(from.place, direction);
-        if (!cost) continue;
-        Stand to{*lattice_->neighbour(from.place, direction), direction, at, from.left, 0, 0.0, 0.0};
-        to.left.and_not(touched(from.place, direction));
-        to.count = to.left.count();
-        to.spent = from.spent + *cost;
-        to.expected = from.expected + *cost * 0.5 * static_cast<double>(from.count + to.count) / total;
-        next.push_back(std::move(to));
+        const Step& taken = step(from.place, direction);
+        if (taken.cost >= blocked) continue;
+        Stand to{taken.to, direction, at};
+        to.count = count_without(from.left, taken.touched);
+        to.spent = from.spent + taken.cost;
+        to.expected = from.expected + taken.cost * 0.5 * static_cast<double>(from.count + to.count) / total;
+        if (to.expected < least) next.push_back(std::move(to));
       }
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < next.size(); ++i) order.emplace_back(key(next[i]), i);
@@ -156,9 +159,12 @@ WalkPolicy::Walk WalkPolicy::best_walk(const Bitset& members, const Pose& base_f
     for (const auto& [value, i] : order) {
       if (current.size() >= beam || value >= least) break;
       Stand& stand = next[i];
+      const Stand& from = stands[static_cast<std::size_t>(stand.before)];
+      stand.left = from.left;
+      if (stand.count < from.count) stand.left.and_not(step(from.place, stand.direction).touched);
       const auto is_same = [&](int at) {
         const Stand& kept = stands[static_cast<std::size_t>(at)];
-        return kept.place == stand.place && kept.left == stand.left;
+        return kept.place == stand.place && kept.count == stand.count && kept.left == stand.left;
       };
       if (std::any_of(current.begin(), current.end(), is_same)) continue;
       const bool done = static_cast<double>(stand.count) <= least_missing * total;
@@ -182,22 +188,22 @@ WalkPolicy::Walk WalkPolicy::best_walk(const Bitset& members, const Pose& base_f
   return walk;
 }
 
-double WalkPolicy::cost(const Members& members, const Pose& base_from_tool) {
+double WalkPolicy::cost(const Members& members, const Pose& base_from_tool, std::size_t beam) {
   Bitset left(predictions_.poses().size());
   for (const std::size_t member : members) left.set(member);
-  const Walk walk = best_walk(left, base_from_tool, to_go_);
+  const Walk walk = best_walk(left, base_from_tool, beam);
   double spent = walk.entry, sum = 0.0;
   Pose end = base_from_tool;
   for (const auto& [place, direction] : walk.steps) {
     Bitset met = left;
-    met &= touched(place, direction);
+    met &= step(place, direction).touched;
     if (!met.none()) {
       const std::vector<double>& after = after_step(place, direction);
       met.for_each([&](std::size_t pose) { sum += spent + after[pose]; });
       left.and_not(met);
     }
-    spent += *step_cost(place, direction);
-    end = lattice_->base_from_tool(*lattice_->neighbour(place, direction));
+    spent += step(place, direction).cost;
+    end = lattice_->base_from_tool(step(place, direction).to);
   }
   Members missing;
   left.for_each([&](std::size_t pose) { missing.push_back(pose); });

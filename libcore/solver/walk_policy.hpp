@@ -23,17 +23,24 @@ class WalkPolicy {
 
   /// Expected cost until the tool is seated, if the target is at one of these poses (not empty), from where the tool
   /// is. Never less than the best policy costs, as far as the ways to the lattice's places and over the retreat plane
-  /// are free.
-  double cost(const Members& members, const geometry::Pose& base_from_tool);
+  /// are free. `beam`: ways that are followed side by side; the time it takes grows with them.
+  double cost(const Members& members, const geometry::Pose& base_from_tool, std::size_t beam = careful);
+
+  static constexpr std::size_t quick = 6, careful = 24;
 
  private:
+  struct Step {
+    std::size_t to = 0;       ///< place
+    double cost = 0.0;        ///< 1e300 where it is blocked
+    support::Bitset touched;  ///< poses
+  };
   struct Stand {
     std::size_t place = 0, direction = 0;  ///< where it is, and how it came there
     int before = -1;                       ///< the stand that it came from
-    support::Bitset left;                  ///< poses not touched so far
-    std::size_t count = 0;                 ///< of them
+    std::size_t count = 0;                 ///< of the poses not touched so far
     double spent = 0.0;                    ///< if nothing was touched
     double expected = 0.0;                 ///< until something was touched, or up to here
+    support::Bitset left{};                ///< the poses not touched so far
   };
   /// The steps of the best walk, and what it costs to get to the first of them.
   struct Walk {
@@ -41,11 +48,11 @@ class WalkPolicy {
     std::vector<std::pair<std::size_t, std::size_t>> steps;  ///< place and direction
   };
 
-  Walk best_walk(const support::Bitset& members, const geometry::Pose& base_from_tool, double to_go) const;
+  Walk best_walk(const support::Bitset& members, const geometry::Pose& base_from_tool, std::size_t beam) const;
   std::vector<Stand> entries(const support::Bitset& members, const geometry::Pose& base_from_tool) const;
   double with_actions(double way) const;
-  std::optional<double> step_cost(std::size_t place, std::size_t direction) const;
-  const support::Bitset& touched(std::size_t place, std::size_t direction) const;
+  const Step& step(std::size_t place, std::size_t direction) const;
+  Step made_step(std::size_t place, std::size_t direction) const;
   const std::vector<double>& after_step(std::size_t place, std::size_t direction);
 
   std::shared_ptr<const action::Task> task_;
@@ -53,10 +60,9 @@ class WalkPolicy {
   Predictions& predictions_;
   RatePolicy& after_;
   int dimensions_;
-  double to_go_ = 0.5;                                     ///< m on average until a walk has touched one of all poses
-  mutable std::vector<support::Bitset> touched_;           ///< by place and direction; empty: not known yet
-  std::vector<std::vector<double>> costs_after_;           ///< likewise, by pose: what it costs from its contact on
-  mutable std::vector<std::optional<double>> step_costs_;  ///< likewise
+  double to_go_ = 0.5;                              ///< m on average until a walk has touched one of all poses
+  mutable std::vector<std::optional<Step>> steps_;  ///< by place and direction, once looked at
+  std::vector<std::vector<double>> costs_after_;    ///< likewise, by pose: what it costs from its contact on
 };
 
 }  // namespace tactus::solver

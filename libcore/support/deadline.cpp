@@ -13,7 +13,7 @@ bool Deadline::cancelled() const { return cancelled_ != nullptr && cancelled_->l
 bool Deadline::spent() const { return cancelled() || used_ >= limit_ || elapsed_seconds() >= seconds_; }
 
 double Deadline::used_fraction() const {
-  if (limit_ == 0 || !(seconds_ > 0.0)) return 1.0;
+  if (limit_ == 0 || !(seconds_ > 0.0) || cancelled()) return 1.0;
   const double of_time = elapsed_seconds() / seconds_;
   const double of_count = limit_ == UINT64_MAX ? 0.0 : static_cast<double>(used_) / static_cast<double>(limit_);
   return std::min(1.0, std::max(of_time, of_count));

@@ -21,7 +21,7 @@ class Deadline {
   void count_expansion() { ++used_; }
   bool cancelled() const;
   bool spent() const;            ///< out of time, out of expansions, or cancelled
-  double used_fraction() const;  ///< of the tighter budget, in [0, 1]; 0 without one
+  double used_fraction() const;  ///< of the tighter budget, in [0, 1]; 0 without one, 1 if cancelled
   double elapsed_seconds() const;
   std::uint64_t expansions() const { return used_; }
 

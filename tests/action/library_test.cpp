@@ -183,6 +183,25 @@ TEST(Library, KeepsThePrimitivesOfAConfiguration) {
   for (std::size_t i = 0; i < anew.size(); ++i) EXPECT_EQ(anew[i]->path, first[i]->path);
 }
 
+TEST(Library, KeepsTheProbesOfARegionThatHardlyChanges) {
+  ActionLibrary library(task());
+  geometry::Box region = task().frame().region;
+  const auto paths = [](const std::vector<MotionPtr>& motions) {
+    std::vector<std::uint64_t> ids;
+    for (const MotionPtr& motion : motions) ids.push_back(action::path_id(motion->path));
+    return ids;
+  };
+  const std::vector<MotionPtr> made = library.probes_in(region, task().home(), 3);
+  ASSERT_FALSE(made.empty());
+  region.high -= 0.05 * region.size();
+  region.low -= 0.01 * region.size();
+  EXPECT_EQ(library.probes_in(region, task().home(), 3), made);
+  region.high[0] -= 0.25 * region.size()[0];
+  const std::vector<MotionPtr> narrower = library.probes_in(region, task().home(), 3);
+  EXPECT_NE(paths(narrower), paths(made));
+  EXPECT_EQ(paths(narrower), paths(ActionLibrary(task()).probes_in(region, task().home(), 3)));
+}
+
 TEST(Library, IsSharedByThreads) {
   ActionLibrary library(task());
   std::array<std::vector<MotionPtr>, 4> seen;

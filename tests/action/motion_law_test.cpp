@@ -138,6 +138,38 @@ TEST(Probes, AimAtASmallerRegionToo) {
   }
 }
 
+geometry::Box box_of_target(const Pose& pose) {
+  geometry::Box box;
+  const Pose search_from_target = task().frame().base_from_search.inverse() * pose;
+  for (const Vector3& vertex : task().scene().target.mesh.vertices) box.add(search_from_target * vertex);
+  return box;
+}
+
+/// By the standoff, wherever in the region the targets are; as far as that is from the whole region if they are all.
+TEST(RetreatPlane, IsClearOfTheTargetsThatMayBe) {
+  constexpr double pitch = 0.001;  // m between sites
+  Rng rng(9);
+  const scene::SearchFrame& frame = task().frame();
+  EXPECT_EQ(action::retreat_plane(task(), frame.region), frame.standoff);
+  const double clearance = frame.region.low.z() - frame.tool_extent.high.z() - frame.standoff;
+  bool is_nearer = false;
+  for (int i = 0; i < 20; ++i) {
+    const Pose target = task().scene().prior.sample(rng);
+    const geometry::Box box = box_of_target(target);
+    const double plane = action::retreat_plane(task(), box);
+    is_nearer = is_nearer || plane > frame.standoff + 1e-4;
+    EXPECT_NEAR(box.low.z() - frame.tool_extent.high.z() - plane, clearance, 1e-9);
+    std::vector<MotionPtr> motions = action::probes(task(), box, task().home(), 2);
+    motions.push_back(action::insertion(task(), target, task().home(), 0, plane));
+    for (const MotionPtr& motion : motions) {
+      if (!motion) continue;
+      EXPECT_NEAR((frame.base_from_search.inverse() * motion->base_from_start.translation()).z(), plane, pitch);
+      EXPECT_FALSE(task().target_contact().touches(motion->bodies, 0, target));
+    }
+  }
+  EXPECT_TRUE(is_nearer);
+}
+
 TEST(Insertion, EndsSeatedGoingInAlongTheAxisInFineSteps) {
   Rng rng(4);
   const action::MotionOptions& options = task().options().motion;

@@ -58,9 +58,10 @@ TEST(Forecast, OnVoxelsIsWhatThePlannerExpectsOfAMoveFromHere) {
     for (const Likelihood likelihood : {Likelihood::paper, Likelihood::calibrated}) {
       const bool calibrated = likelihood == Likelihood::calibrated;
       Rng draws(7);
-      auto poses = calibrated ? belief.draw_feasible(particles, draws) : std::vector<Pose>{};
+      auto poses = calibrated ? belief::poses_of(belief.draw_feasible(particles, draws)) : std::vector<Pose>{};
       auto problem = std::make_shared<solver::VoxelProblem>(belief.shared_model(), library, std::move(poses), 0.035);
-      for (const solver::Choice& choice : problem->start(belief.configuration(), belief.voxels())->choices()) {
+      for (const solver::Choice& choice :
+           problem->start(belief.configuration(), belief.voxels())->choices(support::Deadline::unlimited())) {
         if (choice.motion->anchored) continue;
         const auto action = library->realise(belief.configuration(), *choice.motion, support::Deadline::unlimited());
         ASSERT_TRUE(action);

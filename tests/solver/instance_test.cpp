@@ -244,7 +244,7 @@ TEST(Evaluation, IsWhatRunningThePolicyAtEachPoseCosts) {
     double cost = 0.0, discount = 1.0;
     auto state = InstanceState::start(instance);
     for (int to = 0; to != Instance::goal; discount *= instance->discount) {
-      const auto choices = state->choices();
+      const auto choices = state->choices(support::Deadline::unlimited());
       const auto& choice = choices.at(*solver::greedy_choice(choices, solver::Greedy::rate));
       const auto& results = instance->configurations[state->place()].results[state->motion_of(choice)];
       cost += discount * results[pose].cost;

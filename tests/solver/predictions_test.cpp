@@ -116,6 +116,53 @@ TEST(Split, IsNoCoarserThanItNeedBe) {
   });
 }
 
+/// A later call's poses: some of the earlier ones, in another order, some of them off, and others.
+Predictions later_predictions(const Predictions& earlier, std::vector<double>& misses, Rng& rng, double blur) {
+  std::vector<Pose> drawn;
+  for (std::size_t i = poses; i-- > 0;)
+    drawn.push_back(i % 3 == 0 ? task()->scene().prior.sample(rng) : earlier.poses()[i]);
+  for (std::size_t i = 0; i < poses; ++i) misses.push_back(i % 5 == 0 ? 0.0005 : 0.0);
+  return {task(), drawn, blur, misses};
+}
+
+TEST(Predictions, AreTheSameWithWhatIsTakenOverFromAnEarlierCall) {
+  Rng rng(6);
+  action::ActionLibrary library(*task());
+  for (const double blur : {0.0, 0.001}) {
+    Predictions earlier = random_predictions(rng, blur);
+    std::vector<action::MotionPtr> motions;
+    for (int i = 0; i < 25; ++i) {
+      motions.push_back(motion_of(random_action(*task(), library, task()->scene().start, rng), i % 2 == 0));
+      for (std::size_t pose = 0; pose < poses; pose += 1 + rng.below(2)) earlier.first_contact(motions.back(), pose);
+      if (i % 3 > 0) earlier.first_nears(motions.back());
+    }
+    std::vector<double> misses;
+    Predictions taking = later_predictions(earlier, misses, rng, blur);
+    Predictions afresh(task(), taking.poses(), blur, misses);
+    taking.take_over(earlier);
+    for (const action::MotionPtr& motion : motions) {
+      ASSERT_EQ(taking.first_contacts(motion), afresh.first_contacts(motion));
+      ASSERT_EQ(taking.first_nears(motion), afresh.first_nears(motion));
+    }
+  }
+}
+
+TEST(Predictions, OfHowAMotionBeginsAreThoseOfTheWhole) {
+  Rng rng(7);
+  action::ActionLibrary library(*task());
+  for (int i = 0; i < 25; ++i) {
+    Predictions told = random_predictions(rng, 0.001);
+    Predictions afresh(task(), told.poses(), 0.001);
+    const action::MotionPtr whole = motion_of(random_action(*task(), library, task()->scene().start, rng), true);
+    const action::MotionPtr part = action::truncated(*task(), *whole, 2 + rng.below(whole->path.size() - 1));
+    told.first_contacts(whole);
+    if (i % 2 == 0) told.first_nears(whole);
+    told.begins_as(part, whole);
+    ASSERT_EQ(told.first_contacts(part), afresh.first_contacts(part));
+    ASSERT_EQ(told.first_nears(part), afresh.first_nears(part));
+  }
+}
+
 /// Poses that are all about as far away are touched at one waypoint or the next: which one says nothing.
 TEST(Split, DoesNotTellApartWhatIsTouchedWithinTheBlur) {
   constexpr double blur = 0.001;

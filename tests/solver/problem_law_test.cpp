@@ -56,8 +56,9 @@ belief::Belief random_belief(Kind kind, Rng& rng) {
 Tracked on_poses(Rng& rng) {
   const belief::Belief belief = random_belief(Kind::particles, rng);
   const std::vector<Pose> poses = belief::poses_of(belief.draw(40, rng));
-  auto problem = std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
-                                                       solver::Predictions(task(), poses), belief.bits(), 0.035);
+  auto problem =
+      std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
+                                            std::make_shared<solver::Predictions>(task(), poses), belief.bits(), 0.035);
   return {problem->start(belief.configuration()), poses, true};
 }
 
@@ -65,7 +66,7 @@ Tracked on_voxels(Rng& rng, bool calibrated) {
   for (;;) {
     const belief::Belief belief = random_belief(Kind::hierarchical, rng);
     if (belief.phase() != belief::Phase::voxels) continue;
-    const std::vector<Pose> poses = calibrated ? belief.draw_feasible(80, rng) : std::vector<Pose>{};
+    const std::vector<Pose> poses = calibrated ? belief::poses_of(belief.draw_feasible(80, rng)) : std::vector<Pose>{};
     auto problem = std::make_shared<solver::VoxelProblem>(
         belief.shared_model(), std::make_shared<action::ActionLibrary>(*task()), poses, 0.035);
     return {problem->start(belief.configuration(), belief.voxels()), poses, false};
@@ -95,7 +96,7 @@ void for_random_beliefs(std::uint64_t seed, int episodes, Visit&& visit) {
   for (int episode = 0; episode < 3 * episodes; ++episode) {
     Tracked at = episode % 3 == 0 ? on_poses(rng) : on_voxels(rng, episode % 3 == 1);
     for (int depth = 0; depth < 3; ++depth) {
-      const std::vector<Choice> choices = at.state->choices();
+      const std::vector<Choice> choices = at.state->choices(support::Deadline::unlimited());
       ASSERT_TRUE(depth > 0 || !choices.empty());
       ASSERT_NO_FATAL_FAILURE(visit(at, choices, rng));
       if (choices.empty()) break;
@@ -297,13 +298,14 @@ TEST(Heuristics, AdmissibleIsAtMostTheCostOfAnAttemptThatSeatsEveryPose) {
     v[1] += rng.uniform(-1.5e-4, 1.5e-4), v[2] += rng.uniform(-1.5e-4, 1.5e-4), v[3] += rng.uniform(-0.012, 0.012);
     poses.push_back(geometry::pose_from(v));
   }
-  auto problem = std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
-                                                       solver::Predictions(task(), poses), 5.0, 0.035);
+  auto problem =
+      std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
+                                            std::make_shared<solver::Predictions>(task(), poses), 5.0, 0.035);
   int attempts = 0;
   JointVector q = task()->scene().start;
   for (int round = 0; round < 2; ++round) {
     const auto state = problem->start(q);
-    for (const solver::Choice& choice : state->choices()) {
+    for (const solver::Choice& choice : state->choices(support::Deadline::unlimited())) {
       if (!std::all_of(choice.outcomes.begin(), choice.outcomes.end(), [](const auto& o) { return o.goal; })) continue;
       ++attempts;
       EXPECT_LE(state->heuristic()[0], choice.expected_cost());

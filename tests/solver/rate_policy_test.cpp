@@ -70,7 +70,8 @@ TEST(RatePolicy, CostsTheSameWheneverAsked) {
 
 BeliefStatePtr bounded_start(const std::vector<Pose>& poses) {
   return std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
-                                               solver::Predictions(task(), poses), 5.0, 0.035, SecondValue::upper_bound)
+                                               std::make_shared<solver::Predictions>(task(), poses), 5.0, 0.035,
+                                               SecondValue::upper_bound)
       ->start(task()->scene().start);
 }
 
@@ -83,7 +84,7 @@ TEST(UpperBound, IsNeverBelowTheLowerOne) {
       ASSERT_GT(values[0], 0.0);
       ASSERT_LE(values[0], values[1]);
       ASSERT_LT(values[1], 10.0);
-      const std::vector<solver::Choice> choices = state->choices();
+      const std::vector<solver::Choice> choices = state->choices(support::Deadline::unlimited());
       if (choices.empty()) break;
       const solver::Choice& choice = choices[rng.below(choices.size())];
       const solver::Outcome& outcome = choice.outcomes[rng.below(choice.outcomes.size())];

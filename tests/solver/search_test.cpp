@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
 #include <set>
 
@@ -160,6 +161,27 @@ TEST(Search, KeepsToItsExpansionsAndCountsThem) {
       EXPECT_EQ(tried.expanded(node), !tried.choices(node).empty());
     }
     EXPECT_EQ(expanded, toy->expansions);
+  }
+}
+
+/// Cancelled in the middle of one expansion: that is undone, or if it was the first says nothing of the least possible.
+TEST(Search, HasLowerBoundsOnlyWhereThereWasTimeToWeighAll) {
+  Rng rng(12);
+  for (std::size_t last = 1; last < 30; ++last) {
+    Toy toy = random_toy(rng, 40, 3);
+    const std::vector<double> least = optimum(toy);
+    for (std::size_t s = 0; s < least.size(); ++s) toy.heuristic[s] = {least[s], 2.0 * least[s]};
+    std::atomic<bool> cancelled{false};
+    std::size_t asked = 0;
+    toy.when_asked = [&] { cancelled = ++asked == last; };
+    Search tried = search(std::make_shared<const Toy>(toy), 0.5);
+    Deadline deadline(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled);
+    tried.run(deadline);
+    EXPECT_TRUE(tried.best(Search::start));
+    EXPECT_EQ(deadline.expansions(), cancelled ? std::max<std::size_t>(1, last - 1) : asked);
+    for (int node = 0; node < nodes(tried); ++node) {
+      EXPECT_LE(tried.value(node, ValueType::admissible), least[state_of(tried, node)] + exact);
+    }
   }
 }
 

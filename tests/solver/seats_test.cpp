@@ -34,7 +34,7 @@ std::vector<Pose> alike(double y = 0.0) {
 
 BeliefStatePtr start(const TaskPtr& task, const std::vector<Pose>& poses) {
   return std::make_shared<solver::PoseProblem>(task, std::make_shared<action::ActionLibrary>(*task),
-                                               solver::Predictions(task, poses), 2.0, 0.035)
+                                               std::make_shared<solver::Predictions>(task, poses), 2.0, 0.035)
       ->start(task->scene().start);
 }
 
@@ -66,13 +66,13 @@ TEST(Seats, OneAttemptFinishesWhateverTheNumberOfQuarterTurns) {
   const Choice choice = planned(belief);
   EXPECT_EQ(choice.motion->kind, action::Kind::insertion);
   EXPECT_TRUE(finishes(choice));
-  const std::vector<Choice> choices = belief->choices();
+  const std::vector<Choice> choices = belief->choices(support::Deadline::unlimited());
   for (const solver::Greedy rule : {solver::Greedy::tbl, solver::Greedy::frontier, solver::Greedy::rate})
     EXPECT_TRUE(finishes(choices.at(solver::greedy_choice(choices, rule).value())));
 }
 
 TEST(Seats, WithOneSeatNoAttemptFinishesThem) {
-  const std::vector<Choice> choices = start(task(1), alike())->choices();
+  const std::vector<Choice> choices = start(task(1), alike())->choices(support::Deadline::unlimited());
   EXPECT_FALSE(std::any_of(choices.begin(), choices.end(), finishes));
 }
 
@@ -91,7 +91,7 @@ TEST(Seats, EveryGroupOfPosesHasItsAttempt) {
   std::vector<Pose> poses = alike(-0.004);
   for (const Pose& pose : alike(0.004)) poses.push_back(pose);
   std::set<double> sides;
-  for (const Choice& choice : start(task(4), poses)->choices())
+  for (const Choice& choice : start(task(4), poses)->choices(support::Deadline::unlimited()))
     if (choice.motion->kind == action::Kind::insertion)
       sides.insert(std::round(1000.0 * choice.motion->supposed_target.translation().y()));
   EXPECT_EQ(sides, (std::set<double>{-4.0, 4.0}));
@@ -107,7 +107,7 @@ TEST(Seats, TheHeuristicIsOfTheBestSeat) {
     const double bound = belief->heuristic()[0];
     EXPECT_LE(bound, start(one, {pose})->heuristic()[0]);
     lower += bound < start(one, {pose})->heuristic()[0];
-    for (const Choice& choice : belief->choices())
+    for (const Choice& choice : belief->choices(support::Deadline::unlimited()))
       if (finishes(choice)) {
         EXPECT_LE(bound, choice.expected_cost());
       }

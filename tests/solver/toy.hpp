@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 
 #include "solver/problem.hpp"
 #include "support/rng.hpp"
@@ -24,6 +25,7 @@ struct Toy {
   std::vector<std::vector<Move>> moves;  ///< by state
   std::vector<Values> heuristic;         ///< by state
   mutable std::size_t expansions = 0;    ///< how often a state was asked for its choices
+  std::function<void()> when_asked;      ///< for them
 };
 
 inline double ahead(const Toy::Arrow& arrow, const std::vector<double>& value) {
@@ -92,11 +94,13 @@ class ToyState : public solver::BeliefState {
   Values heuristic() const override { return toy_->heuristic[static_cast<std::size_t>(state_)]; }
   std::size_t support_size() const override { return 1; }
 
-  std::vector<solver::Choice> choices() const override {
+  std::vector<solver::Choice> choices(const support::Deadline& deadline) const override {
     ++toy_->expansions;
+    if (toy_->when_asked) toy_->when_asked();
     std::vector<solver::Choice> result;
     std::size_t count = 0;
     for (const Toy::Move& move : moves()) {
+      if (!result.empty() && deadline.spent()) break;
       result.emplace_back();
       for (const auto& [probability, cost, to] : move) {
         const bool done = to == Toy::goal;

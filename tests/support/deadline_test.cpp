@@ -54,6 +54,14 @@ TEST(Deadline, EndsWhenSomebodyCancels) {
 }
 
 /// A budget of nothing is used up, not a number that is none.
+TEST(Deadline, TheFractionIsOneOnceSomebodyCancels) {
+  std::atomic<bool> cancelled{false};
+  const Deadline deadline(1e9, 100, &cancelled);
+  EXPECT_LT(deadline.used_fraction(), 1e-3);
+  cancelled = true;
+  EXPECT_EQ(deadline.used_fraction(), 1.0);
+}
+
 TEST(Deadline, TheFractionOfAnEmptyBudgetIsOne) {
   EXPECT_EQ(Deadline(for_ever, 0).used_fraction(), 1.0);
   EXPECT_EQ(Deadline(0.0, UINT64_MAX).used_fraction(), 1.0);
