@@ -154,7 +154,8 @@ TEST(RetreatPlane, IsClearOfTheTargetsThatMayBe) {
   const double clearance = frame.region.low.z() - frame.tool_extent.high.z() - frame.standoff;
   bool is_nearer = false;
   for (int i = 0; i < 20; ++i) {
-    const Pose target = task().scene().prior.sample(rng);
+    const Vector3 deeper = rng.uniform(0.0, 0.02) * frame.base_from_search.linear().col(2);
+    const Pose target = Eigen::Translation3d(deeper) * task().scene().prior.sample(rng);
     const geometry::Box box = box_of_target(target);
     const double plane = action::retreat_plane(task(), box);
     is_nearer = is_nearer || plane > frame.standoff + 1e-4;
