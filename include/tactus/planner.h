@@ -69,7 +69,8 @@ TACTUS_API tactus_status tactus_planner_create(const tactus_scenario* scenario, 
 TACTUS_API void tactus_planner_destroy(tactus_planner* planner) TACTUS_NOEXCEPT;
 
 /**
- * What to do next. Takes up to the budget, or next to nothing when it follows the policy.
+ * What to do next. Takes up to the budget, or next to nothing when it follows the policy. The belief itself is always
+ * weighed whole: where a second is too short for that it was seen to take up to 2.4.
  *
  * TACTUS_GOAL_REACHED, TACTUS_NO_INFORMATIVE_ACTION and TACTUS_CANCELLED come with a NULL action and are not errors.
  * TACTUS_WRONG_SCENARIO; TACTUS_BUSY if another thread uses the planner or the belief.
