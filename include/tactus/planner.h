@@ -37,8 +37,8 @@ TACTUS_API const char* tactus_solver_name(tactus_solver solver) TACTUS_NOEXCEPT;
 TACTUS_API tactus_status tactus_solver_from_name(const char* name, tactus_solver* solver) TACTUS_NOEXCEPT;
 
 /**
- * A query ends when either budget is spent and the belief itself is weighed. With one in expansions only, the same scenario and seed give the same
- * actions on every machine; one in seconds cannot promise that.
+ * A query ends when either budget is spent and the belief itself is weighed. With one in expansions only, the same
+ * scenario and seed give the same actions on every machine; one in seconds cannot promise that.
  */
 typedef struct tactus_planner_options {
   uint32_t struct_size;
