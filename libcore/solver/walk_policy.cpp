@@ -37,10 +37,10 @@ WalkPolicy::WalkPolicy(std::shared_ptr<const action::Task> task, std::shared_ptr
       steps_(lattice_->size() * action::Lattice::directions),
       costs_after_(steps_.size()) {
   const Bitset all(predictions_.poses().size(), true);
-  const Walk first = best_walk(all, base_from_tool, careful);
+  first_ = best_walk(all, base_from_tool, careful);
   double length = 0.0, found = 0.0;
   Bitset left = all;
-  for (const auto& [place, direction] : first.steps) {
+  for (const auto& [place, direction] : first_.steps) {
     const std::size_t before = left.count();
     left.and_not(step(place, direction).touched);
     length += step(place, direction).cost;
@@ -110,22 +110,28 @@ std::vector<WalkPolicy::Stand> WalkPolicy::entries(const Bitset& members, const 
   const auto enter = [&](std::size_t place, double spent) {
     stands.push_back({place, 0, -1, count, spent, spent, members});
   };
-  std::size_t nearest = 0;
+  std::size_t nearest = lattice_->size();
   double least = near_by;
   for (std::size_t place = 0; place < lattice_->size(); ++place) {
-    const Pose& there = lattice_->base_from_tool(place);
     if (lattice_->is_on_plane(place)) {
-      enter(place, with_actions(action::transit_cost(*task_, base_from_tool, there)));
+      enter(place, entry_cost(base_from_tool, place));
       continue;
     }
-    const double distance = (there.translation() - base_from_tool.translation()).norm();
+    const double distance = (lattice_->base_from_tool(place).translation() - base_from_tool.translation()).norm();
     if (distance < least) least = distance, nearest = place;
   }
-  const action::CostWeights& weights = task_->options().cost;
-  if (least < near_by)
-    enter(nearest, weights.metre * least +
-                       weights.radian * geometry::angle_between(base_from_tool, lattice_->base_from_tool(nearest)));
+  if (nearest < lattice_->size()) enter(nearest, entry_cost(base_from_tool, nearest));
   return stands;
+}
+
+/// Over the retreat plane to a place on it, straight to one next to the tool; to any other there is no way.
+double WalkPolicy::entry_cost(const Pose& base_from_tool, std::size_t place) const {
+  const Pose& there = lattice_->base_from_tool(place);
+  if (lattice_->is_on_plane(place)) return with_actions(action::transit_cost(*task_, base_from_tool, there));
+  const double distance = (there.translation() - base_from_tool.translation()).norm();
+  const action::CostWeights& weights = task_->options().cost;
+  return distance < near_by ? weights.metre * distance + weights.radian * geometry::angle_between(base_from_tool, there)
+                            : blocked;
 }
 
 WalkPolicy::Walk WalkPolicy::best_walk(const Bitset& members, const Pose& base_from_tool, std::size_t beam) const {
@@ -188,10 +194,27 @@ WalkPolicy::Walk WalkPolicy::best_walk(const Bitset& members, const Pose& base_f
   return walk;
 }
 
+/// From the place on it that is the cheapest to get to, of several the last; none if there is no way to any.
+WalkPolicy::Walk WalkPolicy::rest_of_first(const Pose& base_from_tool) const {
+  Walk rest{blocked, {}};
+  for (auto from = first_.steps.begin(); from != first_.steps.end(); ++from) {
+    const double entry = entry_cost(base_from_tool, from->first);
+    if (entry < blocked && entry <= rest.entry) rest = {entry, {from, first_.steps.end()}};
+  }
+  return rest;
+}
+
 double WalkPolicy::cost(const Members& members, const Pose& base_from_tool, std::size_t beam) {
-  Bitset left(predictions_.poses().size());
-  for (const std::size_t member : members) left.set(member);
-  const Walk walk = best_walk(left, base_from_tool, beam);
+  Bitset all(predictions_.poses().size());
+  for (const std::size_t member : members) all.set(member);
+  const double cost = cost_of(best_walk(all, base_from_tool, beam), all, base_from_tool);
+  const Walk rest = rest_of_first(base_from_tool);
+  return rest.entry < blocked ? std::min(cost, cost_of(rest, all, base_from_tool)) : cost;
+}
+
+/// Of the walk, what follows where it touches, and what is left to do at its end.
+double WalkPolicy::cost_of(const Walk& walk, Bitset left, const Pose& base_from_tool) {
+  const auto total = static_cast<double>(left.count());
   double spent = walk.entry, sum = 0.0;
   Pose end = base_from_tool;
   for (const auto& [place, direction] : walk.steps) {
@@ -208,7 +231,7 @@ double WalkPolicy::cost(const Members& members, const Pose& base_from_tool, std:
   Members missing;
   left.for_each([&](std::size_t pose) { missing.push_back(pose); });
   if (!missing.empty()) sum += static_cast<double>(missing.size()) * (spent + after_.cost(missing, end));
-  return sum / static_cast<double>(members.size());
+  return sum / total;
 }
 
 }  // namespace tactus::solver

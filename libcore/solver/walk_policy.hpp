@@ -23,7 +23,8 @@ class WalkPolicy {
 
   /// Expected cost until the tool is seated, if the target is at one of these poses (not empty), from where the tool
   /// is. Never less than the best policy costs, as far as the ways to the lattice's places and over the retreat plane
-  /// are free. `beam`: ways that are followed side by side; the time it takes grows with them.
+  /// are free. `beam`: ways that are followed side by side; the time it takes grows with them. The rest of the walk
+  /// found where planning begins counts beside what they find, so that who goes along it is worth what it promised.
   double cost(const Members& members, const geometry::Pose& base_from_tool, std::size_t beam = careful);
 
   static constexpr std::size_t quick = 6, careful = 24;
@@ -48,9 +49,12 @@ class WalkPolicy {
     std::vector<std::pair<std::size_t, std::size_t>> steps;  ///< place and direction
   };
 
+  double cost_of(const Walk& walk, support::Bitset left, const geometry::Pose& base_from_tool);
+  Walk rest_of_first(const geometry::Pose& base_from_tool) const;
   Walk best_walk(const support::Bitset& members, const geometry::Pose& base_from_tool, std::size_t beam) const;
   std::vector<Stand> entries(const support::Bitset& members, const geometry::Pose& base_from_tool) const;
   double with_actions(double way) const;
+  double entry_cost(const geometry::Pose& base_from_tool, std::size_t place) const;
   const Step& step(std::size_t place, std::size_t direction) const;
   Step made_step(std::size_t place, std::size_t direction) const;
   const std::vector<double>& after_step(std::size_t place, std::size_t direction);
@@ -61,6 +65,7 @@ class WalkPolicy {
   RatePolicy& after_;
   int dimensions_;
   double to_go_ = 0.5;                              ///< m on average until a walk has touched one of all poses
+  Walk first_;                                      ///< where planning begins, with all poses
   mutable std::vector<std::optional<Step>> steps_;  ///< by place and direction, once looked at
   std::vector<std::vector<double>> costs_after_;    ///< likewise, by pose: what it costs from its contact on
 };
