@@ -32,7 +32,7 @@ std::vector<double> heights(const Task& task, double through) {
   const scene::SearchFrame& frame = task.frame();
   std::vector<double> at{frame.standoff};
   for (const double first : task.options().actions.probe_depth)
-    for (const double depth : layers(first, frame.region.size().z()))
+    for (const double depth : layers(task, frame.region, first))
       at.push_back(std::min(frame.region.low.z() + depth, frame.region.high.z()) - frame.tool_extent.high.z());
   at.erase(std::remove_if(at.begin() + 1, at.end(), [&](double layer) { return layer <= frame.standoff; }), at.end());
   std::sort(at.begin(), at.end());

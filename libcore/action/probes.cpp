@@ -40,6 +40,16 @@ std::vector<Vector3> sweep_positions(const scene::SearchFrame& frame, const Box&
   return {start, down, end};
 }
 
+/// Of the target along its approach axis, m.
+double thickness(const scene::Target& target) {
+  double low = 1e300, high = -1e300;
+  for (const Vector3& vertex : target.mesh.vertices) {
+    low = std::min(low, vertex.dot(target.approach_axis));
+    high = std::max(high, vertex.dot(target.approach_axis));
+  }
+  return high - low;
+}
+
 /// The tool's poses at some positions: at the nearest sites if the way between them follows the axes then.
 std::vector<Pose> on_sites(const Task& task, const std::vector<Vector3>& positions, double turn) {
   std::vector<Pose> exact, moved;
@@ -69,10 +79,11 @@ bool in_same_posture(const JointVector& a, const JointVector& b) {
   return a.size() == b.size() && (a - b).cwiseAbs().maxCoeff() < most_turned;
 }
 
-std::vector<double> layers(double first, double depth) {
-  const int more = std::clamp(static_cast<int>(std::lround((depth - first) / layer_spacing)), 0, most_layers - 1);
-  std::vector<double> depths;
-  for (int k = 0; k <= more; ++k) depths.push_back(first + k * (depth - first) / (more + 1));
+std::vector<double> layers(const Task& task, const Box& region, double first) {
+  const double between = std::max(0.0, region.size().z() - thickness(task.scene().target));
+  const int more = std::clamp(static_cast<int>(std::ceil(between / layer_spacing)), 0, most_layers - 1);
+  std::vector<double> depths{first};
+  for (int k = 1; k <= more; ++k) depths.push_back(first + k * between / more);
   return depths;
 }
 
@@ -107,7 +118,7 @@ std::vector<MotionPtr> probes(const Task& task, const Box& region, const JointVe
     return std::min(region.low.z() + depth, region.high.z()) - frame.tool_extent.high.z();
   };
   for (const double first : options.probe_depth) {
-    const std::vector<double> depths = layers(first, region.size().z());
+    const std::vector<double> depths = layers(task, region, first);
     for (const double depth : depths)
       for (const int along : {0, 1})
         for (const double across : lines(region.low[1 - along], region.high[1 - along], options.probe_spacing, most))

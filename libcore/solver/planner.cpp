@@ -18,6 +18,8 @@ constexpr double swept_bits = 0.005;     // and as long as nothing was met
 constexpr int patience = 3;              // queries in a stage in which the belief hardly shrank
 constexpr int most_idle = 6;             // queries in a row whose actions were not to tell anything
 constexpr int stages = 3;
+constexpr double back_off = 0.01;         // of the way it came, in units of cost, from what it touched
+constexpr double farther = 6.0;           // times as far, each time that this was not enough
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
 constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then
@@ -119,7 +121,7 @@ void Planner::note_fruitless(const belief::Belief& belief) {
     standing_.met.emplace_back(
         path.begin(), path.begin() + static_cast<std::ptrdiff_t>(std::min(history.back().outcome + 1, path.size())));
   }
-  standing_.halted = !shrank && (standing_.halted || (is_handed_out && history.back().outcome <= policy_->lead));
+  standing_.halts = shrank ? 0 : standing_.halts + (is_handed_out && history.back().outcome <= policy_->lead);
   if (shrank) standing_.bits = bits;
   standing_.q = belief.configuration();
   standing_.size = size;
@@ -178,7 +180,7 @@ BeliefStatePtr Planner::on_voxels(const belief::Belief& belief, const support::D
 BeliefStatePtr Planner::on_poses(const belief::Belief& belief) {
   predict(belief);
   return std::make_shared<PoseProblem>(model_->task, library_, predictions_, belief.bits(), options_.cost_per_bit,
-                                       second_value_of(options_.solver))
+                                       second_value_of(options_.solver), !has_met_something(belief.history()))
       ->start(belief.configuration());
 }
 
@@ -253,6 +255,22 @@ std::vector<Touch> Planner::touched_in_vain(const belief::Belief& belief) const 
   return touches;
 }
 
+/// A little of the way it came, from what it touched: any other may lead along it. More of it each time it is halted
+/// before it is out.
+motion::JointPath Planner::way_off(const belief::Belief& belief) const {
+  const std::vector<belief::Trace>& history = belief.history();
+  if (!has_met_something(history) || (!history.back().contact && standing_.halts == 0)) return {};
+  const action::Task& task = *model_->task;
+  const double enough = back_off * std::pow(farther, standing_.halts);
+  motion::JointPath way = belief.way_back();
+  double cost = 0.0;
+  std::size_t waypoints = 1;
+  for (; waypoints < way.size() && cost < enough; ++waypoints)
+    cost += task.cost(
+        motion::tool_travel(*task.scene().robot, task.scene().tool_link, {way[waypoints - 1], way[waypoints]}));
+  return {way.begin(), way.begin() + static_cast<std::ptrdiff_t>(waypoints)};
+}
+
 /// What a motion was thought to cost all the way, with the way to its start, however far its outcomes go.
 double full_cost(const Choice& choice) {
   const Outcome& any = choice.outcomes.front();
@@ -271,6 +289,7 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
     banned[choice] = true;
     verdicts[choice] = verdict;
   };
+  const motion::JointPath way_back = way_off(belief);
   const std::vector<Touch> touches = touched_in_vain(belief);
   const bool does_not_err = belief.sensing().missed_contacts == 0.0 && belief.sensing().false_contacts == 0.0;
   for (std::size_t i = 0; i < choices.size(); ++i)
@@ -286,11 +305,7 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
     const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
     auto made = std::move(realised[*choice]);
     const bool is_charged = made.has_value();
-    if (!made)
-      made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited,
-                               standing_.halted && stage() != Stage::all && has_met_something(belief.history())
-                                   ? belief.way_back()
-                                   : motion::JointPath{});
+    if (!made) made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited, way_back);
     if (made &&
         std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
       const double more = made->full_cost - full_cost(choices[*choice]);

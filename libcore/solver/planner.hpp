@@ -58,6 +58,7 @@ class Planner {
   enum class Stage { all, probes, anchored };  ///< what is tried
   Stage stage() const;
   const Choice& chosen() const;
+  motion::JointPath way_off(const belief::Belief& belief) const;
   bool is_known(const action::Motion& motion) const;
   bool is_unpromising(const action::Motion& motion) const;
   std::vector<Touch> touched_in_vain(const belief::Belief& belief) const;
@@ -90,7 +91,7 @@ class Planner {
     double bits = 0.0;                   ///< when the belief last shrank noticeably
     int stalls = 0;                      ///< queries since then
     int idle = 0;                        ///< queries since then whose action was not to tell anything
-    bool halted = false;                 ///< since then, before an action's motion proper had begun
+    int halts = 0;                       ///< since then, before an action's motion proper had begun
   };
   Standing standing_;
   double sample_;                             ///< times as many poses as long as nothing was met

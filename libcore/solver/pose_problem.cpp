@@ -57,7 +57,8 @@ class PoseState : public BeliefState {
     const std::size_t attempts = at_start_
                                      ? static_cast<std::size_t>(problem_->task_->options().actions.insertion_candidates)
                                      : inner_candidates;
-    for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);
+    for (const MotionPtr& motion : problem_->library_->primitives_at(q_))
+      if (!at_start_ || !problem_->leads_nowhere(*motion)) consider(motion);
     for (const MotionPtr& motion : problem_->insertions(members_, q_, attempts)) consider(motion);
     for (const MotionPtr& motion : anchored()) consider(motion);
     if (at_start_ && problem_->walk_) weigh_carefully(result, deadline);
@@ -125,7 +126,11 @@ class PoseState : public BeliefState {
                                                                 motion->base_from_start)
                                          : 0.0;
     Choice choice{motion, {}};
-    const std::size_t least = least_group(members_.count(), problem_->dimensions());
+    std::size_t touched = 0;
+    members_.for_each([&](std::size_t pose) {
+      touched += problem_->predictions_->first_contact(motion, pose) < motion->path.size();
+    });
+    const std::size_t least = least_group(touched, problem_->dimensions());
     for (const auto& [waypoint, last, group, expected] : problem_->predictions_->split(motion, members_, least)) {
       Outcome outcome;
       outcome.waypoint = waypoint;
@@ -150,7 +155,8 @@ class PoseState : public BeliefState {
 };
 
 PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
-                         std::shared_ptr<Predictions> predictions, double bits, double cost_per_bit, SecondValue second)
+                         std::shared_ptr<Predictions> predictions, double bits, double cost_per_bit, SecondValue second,
+                         bool nothing_met)
     : task_(std::move(task)),
       library_(std::move(library)),
       predictions_(std::move(predictions)),
@@ -158,7 +164,8 @@ PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_p
       plane_(action::retreat_plane(*task_, region_)),
       bits_(bits),
       cost_per_bit_(cost_per_bit),
-      second_(second) {
+      second_(second),
+      nothing_met_(nothing_met) {
   for (const Pose& pose : predictions_->poses())
     for (std::size_t seat = 0; seat < seats(); ++seat) seated_.push_back(task_->scene().seated(pose, seat));
   for (std::size_t seat = 0; seat < seated_.size(); ++seat) attempts_.push_back(attempt_at(seat));
@@ -196,6 +203,16 @@ int PoseProblem::dimensions() const {
 
 bool PoseProblem::seated(const Motion& motion, std::size_t pose) const {
   return task_->scene().is_seated(motion.bodies.base_from_body(motion.path.size() - 1, 0), predictions_->poses()[pose]);
+}
+
+/// A turn, or a move shorter than a walk's steps, while the target is looked for by walks.
+bool PoseProblem::leads_nowhere(const Motion& motion) const {
+  constexpr double nearly = 0.9;
+  if (!nothing_met_ || !walk_ || motion.anchored) return false;
+  if (motion.kind == action::Kind::turn) return true;
+  const std::size_t last = motion.path.size() - 1;
+  return (motion.bodies.base_from_body(last, 0).translation() - motion.bodies.base_from_body(0, 0).translation())
+             .norm() < nearly * walk_->pitch();
 }
 
 const std::vector<MotionPtr>& PoseProblem::anchored(const JointVector& near) {

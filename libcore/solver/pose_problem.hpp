@@ -16,10 +16,12 @@ namespace tactus::solver {
 class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
  public:
   /// `predictions`: of the poses. `bits`: log2 of how many tolerances the full belief spans; `cost_per_bit` in units of
-  /// cost.
+  /// cost. `nothing_met`: the target is still looked for, by walks where an upper bound is the second value. Then moves
+  /// shorter than their steps are no choices at the start, as they meet nothing that longer ones don't, nor are turns,
+  /// which walks don't make: with them a robot would rather stay where it is as long as what lies ahead seems worse.
   PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
               std::shared_ptr<Predictions> predictions, double bits, double cost_per_bit,
-              SecondValue second = SecondValue::greedy);
+              SecondValue second = SecondValue::greedy, bool nothing_met = false);
 
   /// The belief at the start: all poses.
   BeliefStatePtr start(const robot::JointVector& q);
@@ -27,6 +29,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
  private:
   friend class PoseState;
   bool seated(const action::Motion& motion, std::size_t pose) const;
+  bool leads_nowhere(const action::Motion& motion) const;
   const std::vector<action::MotionPtr>& anchored(const robot::JointVector& near);
   int dimensions() const;  ///< that are free
   std::size_t seats() const { return task_->scene().target.target_from_seated.size(); }
@@ -54,6 +57,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   double bits_;
   double cost_per_bit_;
   SecondValue second_;
+  bool nothing_met_;
   std::unique_ptr<RatePolicy> policy_;  ///< once there is a start, if its cost is the second value
   std::unique_ptr<WalkPolicy> walk_;    ///< the same; the cheaper of the two counts
   std::vector<action::MotionPtr> anchored_;

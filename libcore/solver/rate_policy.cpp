@@ -140,7 +140,9 @@ void RatePolicy::for_each_group(std::size_t motion, const Members& members, Visi
   for (const std::size_t member : members) sorted_.emplace_back((*first_contacts_[motion])[member], member);
   std::sort(sorted_.begin(), sorted_.end());
   const auto untouched = static_cast<std::int32_t>(motions_[motion]->path.size());
-  const auto least = static_cast<std::ptrdiff_t>(least_group(members.size(), dimensions_));
+  const auto touched =
+      std::count_if(sorted_.begin(), sorted_.end(), [&](const auto& entry) { return entry.first != untouched; });
+  const auto least = static_cast<std::ptrdiff_t>(least_group(static_cast<std::size_t>(touched), dimensions_));
   for (auto begin = sorted_.begin(); begin != sorted_.end();) {
     const auto differs = [](std::int32_t at) { return [at](const auto& entry) { return entry.first != at; }; };
     auto end = std::find_if(begin, sorted_.end(), differs(begin->first));

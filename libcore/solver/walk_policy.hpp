@@ -29,6 +29,8 @@ class WalkPolicy {
 
   static constexpr std::size_t quick = 6, careful = 24;
 
+  double pitch() const { return lattice_->pitch(); }  ///< m, of its steps
+
  private:
   struct Step {
     std::size_t to = 0;       ///< place

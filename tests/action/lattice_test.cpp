@@ -86,6 +86,21 @@ TEST(Lattice, StepsLeadFromPlaceToPlaceAndAreFree) {
   EXPECT_GT(made, 20);
 }
 
+TEST(Lattice, SomeStepMeetsTheTargetWhereverItIsInADeepRegion) {
+  const auto deep = small_task({.roll_width = 0.2, .depth_width = 0.2});
+  const Lattice lattice(*deep, deep->home(), pitch);
+  Rng rng(5);
+  for (int i = 0; i < 50; ++i) {
+    const Pose target = deep->scene().prior.sample(rng);
+    bool is_met = false;
+    for (std::size_t place = 0; place < lattice.size() && !is_met; ++place)
+      for (std::size_t direction = 0; direction < Lattice::directions && !is_met; ++direction)
+        if (const MotionPtr step = lattice.step(place, direction))
+          is_met = deep->target_contact().first_contact(step->bodies, target).has_value();
+    EXPECT_TRUE(is_met) << target.translation().transpose();
+  }
+}
+
 TEST(Lattice, IsKeptWhileTheRobotMovesAlongItsRows) {
   Rng rng(4);
   ActionLibrary library(task());

@@ -138,6 +138,19 @@ TEST(Probes, AimAtASmallerRegionToo) {
   }
 }
 
+TEST(Probes, SweepOverTheTargetWhereverItIsInADeepRegion) {
+  const auto deep = small_task({.roll_width = 0.2, .depth_width = 0.2});
+  std::vector<MotionPtr> sweeps = action::probes(*deep, deep->frame().region, deep->home());
+  std::erase_if(sweeps, [](const MotionPtr& motion) { return motion->kind != Kind::sweep; });
+  Rng rng(5);
+  for (int i = 0; i < 100; ++i) {
+    const Pose target = deep->scene().prior.sample(rng);
+    EXPECT_TRUE(std::any_of(sweeps.begin(), sweeps.end(), [&](const MotionPtr& sweep) {
+      return deep->target_contact().first_contact(sweep->bodies, target).has_value();
+    })) << target.translation().transpose();
+  }
+}
+
 geometry::Box box_of_target(const Pose& pose) {
   geometry::Box box;
   const Pose search_from_target = task().frame().base_from_search.inverse() * pose;

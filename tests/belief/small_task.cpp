@@ -107,7 +107,7 @@ scene::Scene small_scene(const SmallTask& small) {
   for (int seat = 0; seat < small.seats; ++seat)
     scene.target.target_from_seated.push_back(geometry::pose_from({-0.013, 0, 0, quarter_turn * seat, 0, 0}));
   scene.prior.centre = {0.45, 0.0, 0.01, 0.1, 0.0, 0.0};
-  scene.prior.width = {0.0, small.position_width, small.position_width, small.roll_width, 0.0, 0.0};
+  scene.prior.width = {small.depth_width, small.position_width, small.position_width, small.roll_width, 0.0, 0.0};
   scene.prior.guesses = small.guesses;
   return scene;
 }

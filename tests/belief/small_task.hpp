@@ -18,6 +18,7 @@ using robot::JointVector;
 struct SmallTask {
   double roll_width = 1.0;       ///< rad, of the prior
   double position_width = 0.08;  ///< m, of the prior in y and z
+  double depth_width = 0.0;      ///< m, of the prior in x
   double voxel_size = 0.005;     ///< m
   std::size_t delta = 1500;      ///< of 4,000 voxels or so
   std::size_t most_cells = 1500;
