@@ -121,12 +121,19 @@ void Planner::note_fruitless(const belief::Belief& belief) {
     standing_.met.emplace_back(
         path.begin(), path.begin() + static_cast<std::ptrdiff_t>(std::min(history.back().outcome + 1, path.size())));
   }
-  standing_.halts = shrank ? 0 : standing_.halts + (is_handed_out && history.back().outcome <= policy_->lead);
+  if (is_handed_out) note_halt(history.back());
   if (shrank) standing_.bits = bits;
   standing_.q = belief.configuration();
   standing_.size = size;
   standing_.observations = history.size();
   standing_.history = belief::fingerprint(history, history.size());
+}
+
+/// Counts how often in a row it was stopped before it was out; what meets something after that neither way.
+void Planner::note_halt(const belief::Trace& last) {
+  const bool is_halted = last.outcome <= policy_->lead;
+  const bool came_through = !last.contact || policy_->lead > 0;
+  standing_.halts = is_halted ? standing_.halts + 1 : came_through ? 0 : standing_.halts;
 }
 
 /// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed
@@ -255,8 +262,8 @@ std::vector<Touch> Planner::touched_in_vain(const belief::Belief& belief) const 
   return touches;
 }
 
-/// A little of the way it came, from what it touched: any other may lead along it. More of it each time it is halted
-/// before it is out.
+/// A little of the way it came, from what it touched: any other may lead along it. More of it each time that this was
+/// not enough to get out.
 motion::JointPath Planner::way_off(const belief::Belief& belief) const {
   const std::vector<belief::Trace>& history = belief.history();
   if (!has_met_something(history) || (!history.back().contact && standing_.halts == 0)) return {};

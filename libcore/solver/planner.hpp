@@ -80,6 +80,7 @@ class Planner {
   /// poses planned on promise more of small touches than the cells can take in. Begins anew with a belief that has been
   /// through something else.
   void note_fruitless(const belief::Belief& belief);
+  void note_halt(const belief::Trace& last);
 
   struct Standing {
     std::size_t observations = 0;
@@ -91,7 +92,7 @@ class Planner {
     double bits = 0.0;                   ///< when the belief last shrank noticeably
     int stalls = 0;                      ///< queries since then
     int idle = 0;                        ///< queries since then whose action was not to tell anything
-    int halts = 0;                       ///< since then, before an action's motion proper had begun
+    int halts = 0;                       ///< in a row, before an action's motion proper had begun
   };
   Standing standing_;
   double sample_;                             ///< times as many poses as long as nothing was met

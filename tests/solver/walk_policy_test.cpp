@@ -32,7 +32,8 @@ struct Walking : Setting {
     double sum = 0.0;
     for (const solver::Group& group : predictions.split(step, all, solver::least_group(met.count(), dimensions))) {
       const Pose& there = step->bodies.base_from_body(group.first - 1, 0);
-      const double then = group.first == untouched ? policy.cost(group.poses, there) : rate.cost(group.poses, there);
+      const double then =
+          group.first == untouched ? policy.cost(group.poses, there, WalkPolicy::quick) : rate.cost(group.poses, there);
       sum += static_cast<double>(group.poses.size()) * (step->cost_to[std::min(group.first, untouched - 1)] + then);
     }
     return sum / static_cast<double>(members.size());
@@ -88,7 +89,7 @@ TEST(WalkPolicy, CostsNoLessThanItsBestFirstStepAndWhatFollows) {
     for (std::size_t other = 0; other < lattice.size(); ++other)
       if (lattice.is_on_plane(other))
         best = std::min(best, action::transit_cost(*wide, here, lattice.base_from_tool(other)) +
-                                  policy.cost(all, lattice.base_from_tool(other)));
+                                  policy.cost(all, lattice.base_from_tool(other), WalkPolicy::quick));
     EXPECT_LT(best, policy.cost(all, here) + 1e-9);
   }
 }
