@@ -21,6 +21,9 @@ typedef struct tactus_scenario tactus_scenario;
  * Reads a scenario file (YAML), the robot and the meshes that it names, and makes all ready; takes seconds. Paths in
  * the file are relative to its folder. Everything that is wrong in the file is reported at once.
  *
+ * Meshes are read by another program, tactus-import-mesh, which belongs in a folder `tactus` beside libtactus.so: a
+ * child process for each file, gone when this returns. A program that handles SIGCHLD sees them end, and may reap them.
+ *
  * TACTUS_FILE_NOT_FOUND, TACTUS_FILE_UNREADABLE, TACTUS_BAD_SCENARIO, TACTUS_BAD_ROBOT, TACTUS_BAD_MESH,
  * TACTUS_START_IN_COLLISION, TACTUS_PRIOR_UNREACHABLE.
  */

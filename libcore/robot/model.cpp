@@ -51,6 +51,7 @@ void load_shapes(const urdf::ModelInterface& parsed, const UrdfOutline& outline,
         const Mesh mesh = mesh_of(*collisions[i]->geometry, outlines[i].mesh, cache);
         link.shapes.push_back(geometry::transformed(mesh, pose_from(collisions[i]->origin)));
       } catch (const support::Error& error) {
+        if (error.status() == support::Status::internal) throw;  // no mistake of the file's
         report.add(outlines[i].row, "link " + link.name, error.what(), "a mesh that can be used");
       }
     }

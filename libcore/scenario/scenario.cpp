@@ -24,6 +24,7 @@ auto collected(std::vector<std::string>& problems, Make make) -> decltype(make()
   try {
     return make();
   } catch (const Error& error) {
+    if (error.status() == Status::internal) throw;  // no mistake of the file's
     problems.emplace_back(error.what());
     return {};
   }

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# command_test.sh TACTUS SOURCE_DIR: usage errors, versions and checks of the command. Runs are tested from Python.
+# command_test.sh TACTUS SOURCE_DIR LIBRARY: usage errors, versions and checks of the command. Runs are tested from Python.
 set -u
 tactus=$1
 shelf=$2/examples/scenarios/shelf_3d.yaml
@@ -65,4 +65,12 @@ expect 0 'Discount' export "$small" --poses 5 --pomdpx -
 expect 0 'cost / optimum' evaluate "$small" --poses 5
 expect 0 '"optimum": null' evaluate "$small" --poses 5 --most-beliefs 1 --json -
 expect 0 'nothing wrong' check "$shelf"
+
+# The library in a folder of its own, without the mesh importer: not the scenario's fault, and said once.
+alone=$(mktemp -d "$PWD/alone_XXXXXX")
+ln "$3" "$alone/libtactus.so.0"
+LD_LIBRARY_PATH=$alone
+export LD_LIBRARY_PATH
+expect 2 "base.stl: found no mesh importer to read it with, expected $alone/tactus/tactus-import-mesh or" check "$shelf"
+rm -r "$alone"
 exit "$failures"
