@@ -9,7 +9,7 @@ enum class Kind : std::int32_t {
   move = 1,       ///< the tool moves along an axis of the search frame, from where it is
   turn = 2,       ///< the tool turns about the approach axis
   sweep = 3,      ///< from the retreat plane down beside the region, and through it sideways
-  poke = 4,       ///< from the retreat plane straight in
+  poke = 4,       ///< straight in, from the retreat plane or from beside where the tool is
   insertion = 5,  ///< from the retreat plane to the seated pose at a supposed target
 };
 

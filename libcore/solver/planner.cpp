@@ -210,13 +210,11 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   if (searches) fit_sample(deadline.elapsed_seconds() / options_.budget_seconds);
 }
 
-/// As many poses as there is time to weigh all motions for: twice as many while less than half of the budget is `used`,
-/// half as many where it was not enough.
+/// As many poses as there is time to weigh all motions for, by the share of the budget that the last ones `used`.
 void Planner::fit_sample(double used) {
-  constexpr double least_sample = 0.5;
+  constexpr double least_sample = 0.5, aim = 0.7, at_least = 0.4, at_most = 1.6;
   if (std::isinf(options_.budget_seconds)) return;
-  if (used >= 1.0) sample_ = std::max(least_sample, 0.5 * sample_);
-  if (used < 0.45) sample_ = std::min(search_sample, 2.0 * sample_);
+  sample_ = std::clamp(sample_ * std::clamp(aim / used, at_least, at_most), least_sample, search_sample);
 }
 
 /// Notes what there is to follow.

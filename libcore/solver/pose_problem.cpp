@@ -6,6 +6,7 @@
 #include <map>
 
 #include "action/insertion.hpp"
+#include "action/near_pokes.hpp"
 #include "action/probes.hpp"
 
 namespace tactus::solver {
@@ -43,7 +44,7 @@ class PoseState : public BeliefState {
   const JointVector& configuration() const override { return q_; }
   std::size_t support_size() const override { return members_.count(); }
 
-  Values heuristic() const override { return values(problem_->task_->base_from_tool(q_), indices(members_)); }
+  Values heuristic() const override { return values(problem_->task_->base_from_tool(q_), indices(members_), false); }
 
   std::vector<Choice> choices(const support::Deadline& deadline) const override {
     std::vector<Choice> result;
@@ -59,6 +60,8 @@ class PoseState : public BeliefState {
                                      : inner_candidates;
     for (const MotionPtr& motion : problem_->library_->primitives_at(q_))
       if (!at_start_ || !problem_->leads_nowhere(*motion)) consider(motion);
+    if (at_start_ && !problem_->nothing_met_)
+      for (const MotionPtr& motion : action::near_pokes(*problem_->task_, q_)) consider(motion);
     for (const MotionPtr& motion : problem_->insertions(members_, q_, attempts)) consider(motion);
     for (const MotionPtr& motion : anchored()) consider(motion);
     if (at_start_ && problem_->walk_) weigh_carefully(result, deadline);
@@ -98,7 +101,8 @@ class PoseState : public BeliefState {
         const Bitset left = problem_->predictions_->subset(motion, members_, outcome.waypoint, outcome.last);
         const Pose& there = motion->bodies.base_from_body(outcome.waypoint - 1, 0);
         double& bound = outcome.heuristic[static_cast<int>(ValueType::inadmissible)];
-        bound = std::min(bound, problem_->simulated(indices(left), there, WalkPolicy::careful));
+        const bool is_met = outcome.waypoint < motion->path.size();
+        bound = std::min(bound, problem_->simulated(indices(left), there, is_met, WalkPolicy::careful));
       }
   }
 
@@ -109,11 +113,11 @@ class PoseState : public BeliefState {
   }
 
   /// h_ad is the mean cost of going straight to the seats; h_inad adds what the missing bits are worth.
-  Values values(const Pose& base_from_tool, const std::vector<std::size_t>& group) const {
+  Values values(const Pose& base_from_tool, const std::vector<std::size_t>& group, bool is_met) const {
     double direct = 0.0;
     for (const std::size_t pose : group) direct += problem_->direct_cost(base_from_tool, pose);
     direct /= static_cast<double>(group.size());
-    if (problem_->policy_) return {direct, problem_->simulated(group, base_from_tool, WalkPolicy::quick)};
+    if (problem_->policy_) return {direct, problem_->simulated(group, base_from_tool, is_met, WalkPolicy::quick)};
     const double share =
         static_cast<double>(group.size()) / static_cast<double>(problem_->predictions_->poses().size());
     const double bits = std::max(std::log2(static_cast<double>(group.size())), problem_->bits_ + std::log2(share));
@@ -142,7 +146,8 @@ class PoseState : public BeliefState {
       outcome.goal =
           waypoint == motion->path.size() && motion->kind == action::Kind::insertion &&
           std::all_of(group.begin(), group.end(), [&](std::size_t pose) { return problem_->seated(*motion, pose); });
-      if (!outcome.goal) outcome.heuristic = values(motion->bodies.base_from_body(waypoint - 1, 0), group);
+      const bool is_met = waypoint < motion->path.size();
+      if (!outcome.goal) outcome.heuristic = values(motion->bodies.base_from_body(waypoint - 1, 0), group, is_met);
       choice.outcomes.push_back(outcome);
     }
     return choice;
@@ -190,7 +195,10 @@ BeliefStatePtr PoseProblem::start(const JointVector& q) {
 }
 
 /// The cost of the cheaper policy, where both may be; where many poses are left, sweeps one by one are not weighed.
-double PoseProblem::simulated(const std::vector<std::size_t>& group, const Pose& base_from_tool, std::size_t beam) {
+/// What follows the first contact is left to the rate policy, as walks leave it.
+double PoseProblem::simulated(const std::vector<std::size_t>& group, const Pose& base_from_tool, bool is_met,
+                              std::size_t beam) {
+  if (nothing_met_ && is_met) return policy_->cost(group, base_from_tool);
   if (group.size() > most_swept) return walk_->cost(group, base_from_tool, beam);
   const double cost = policy_->cost(group, base_from_tool);
   return group.size() < least_walked ? cost : std::min(cost, walk_->cost(group, base_from_tool, beam));

@@ -41,7 +41,8 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   std::vector<std::size_t> seats_of(const support::Bitset& members, const robot::JointVector& q) const;
   Attempt attempt_at(std::size_t seat) const;
   std::unique_ptr<RatePolicy> rate_policy(const robot::JointVector& q);
-  double simulated(const std::vector<std::size_t>& group, const geometry::Pose& base_from_tool, std::size_t beam);
+  double simulated(const std::vector<std::size_t>& group, const geometry::Pose& base_from_tool, bool is_met,
+                   std::size_t beam);
   double seat_cost(const geometry::Pose& base_from_tool, std::size_t seat) const;
   double direct_cost(const geometry::Pose& base_from_tool, std::size_t pose) const;
   geometry::Box bounds() const;

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "action/insertion.hpp"
+#include "action/near_pokes.hpp"
 #include "action/primitives.hpp"
 #include "action/probes.hpp"
 #include "belief/small_task.hpp"
@@ -149,6 +150,34 @@ TEST(Probes, SweepOverTheTargetWhereverItIsInADeepRegion) {
       return deep->target_contact().first_contact(sweep->bodies, target).has_value();
     })) << target.translation().transpose();
   }
+}
+
+TEST(NearPokes, AreSoundAndGoFartherInBesideWhereTheToolIs) {
+  Rng rng(6);
+  const Pose search_from_base = task().frame().base_from_search.inverse();
+  int in_all = 0;
+  for (int i = 0; i < 10; ++i) {
+    const JointVector q = random_free(rng);
+    const Vector3 from = search_from_base * task().base_from_tool(q).translation();
+    for (const MotionPtr& motion : action::near_pokes(task(), q)) {
+      ASSERT_NO_FATAL_FAILURE(expect_sound(*motion, task().options().motion.step));
+      EXPECT_EQ(motion->path.front(), q);
+      EXPECT_FALSE(motion->anchored);
+      EXPECT_EQ(motion->kind, Kind::poke);
+      double farthest_back = 0.0;
+      for (const JointVector& at : motion->path)
+        farthest_back =
+            std::max(farthest_back, from.z() - (search_from_base * task().base_from_tool(at).translation()).z());
+      EXPECT_NEAR(farthest_back, 0.03, 0.002);
+      const Vector3 moved = search_from_base * task().base_from_tool(motion->path.back()).translation() - from;
+      EXPECT_GT(moved.z(), -0.032);
+      EXPECT_LT(moved.z(), 0.102);
+      EXPECT_GT(moved.head<2>().norm(), 0.038);
+      EXPECT_LT(moved.head<2>().norm(), 0.102);
+      ++in_all;
+    }
+  }
+  EXPECT_GT(in_all, 20);
 }
 
 geometry::Box box_of_target(const Pose& pose) {
