@@ -58,7 +58,8 @@ TACTUS_API tactus_status tactus_scenario_planner_options(const tactus_scenario* 
                                                          tactus_planner_options* options) TACTUS_NOEXCEPT;
 
 /**
- * A planner for beliefs of this scenario, of either kind. `options`: NULL for the scenario's.
+ * A planner for beliefs of this scenario, of either kind. `options`: NULL for the scenario's. With brtdp-bel it takes
+ * some tenths of a second: motions for the first query are made here.
  *
  * TACTUS_INVALID_ARGUMENT (out of range, NaN), TACTUS_STRUCT_SIZE.
  */

@@ -148,7 +148,7 @@ class Draw {
     std::vector<Cell> parts =
         cells_.draw_parts(belief_.task(), belief_.history(), lots_per_pose * count_, finest_part, rng_, deadline_);
     std::erase_if(parts, [&](const Cell& part) { return cells_.radius(part) > fine_radius; });
-    for (std::size_t i = 0; i < parts.size() && size() < count_; ++i) {
+    for (std::size_t i = 0; i < parts.size() && lacks(count_); ++i) {
       std::swap(parts[i], parts[i + rng_.below(parts.size() - i)]);
       add_from(parts[i]);
     }

@@ -22,7 +22,8 @@ constexpr double back_off = 0.01;         // of the way it came, in units of cos
 constexpr double farther = 6.0;           // times as far, each time that this was not enough
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
-constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then
+constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then;
+constexpr double least_sample = 0.5;      // and so many if they aren't, or it is not known yet
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
 bool has_met_something(const std::vector<belief::Trace>& history) {
@@ -47,8 +48,9 @@ Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOption
       options_(options),
       library_(std::make_shared<action::ActionLibrary>(*model_->task)),
       rng_(support::mix(options.seed ^ own_stream)),
-      sample_(std::isinf(options.budget_seconds) ? search_sample : 1.0) {
+      sample_(std::isinf(options.budget_seconds) ? search_sample : least_sample) {
   check(options_);
+  if (is_bounded()) PoseProblem::prepare(*model_->task, *library_);
 }
 
 Planner::~Planner() = default;
@@ -129,7 +131,7 @@ void Planner::note_fruitless(const belief::Belief& belief) {
   standing_.history = belief::fingerprint(history, history.size());
 }
 
-/// Counts how often in a row it was stopped before it was out; what meets something after that neither way.
+/// Counts how often in a row it was stopped before it was out; a small motion that meets something changes nothing.
 void Planner::note_halt(const belief::Trace& last) {
   const bool is_halted = last.outcome <= policy_->lead;
   const bool came_through = !last.contact || policy_->lead > 0;
@@ -212,7 +214,7 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
 
 /// As many poses as there is time to weigh all motions for, by the share of the budget that the last ones `used`.
 void Planner::fit_sample(double used) {
-  constexpr double least_sample = 0.5, aim = 0.7, at_least = 0.4, at_most = 1.6;
+  constexpr double aim = 0.7, at_least = 0.4, at_most = 1.6;
   if (std::isinf(options_.budget_seconds)) return;
   sample_ = std::clamp(sample_ * std::clamp(aim / used, at_least, at_most), least_sample, search_sample);
 }

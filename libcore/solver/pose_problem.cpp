@@ -64,6 +64,8 @@ class PoseState : public BeliefState {
       for (const MotionPtr& motion : action::near_pokes(*problem_->task_, q_)) consider(motion);
     for (const MotionPtr& motion : problem_->insertions(members_, q_, attempts)) consider(motion);
     for (const MotionPtr& motion : anchored()) consider(motion);
+    if (at_start_ && result.empty())
+      for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);
     if (at_start_ && problem_->walk_) weigh_carefully(result, deadline);
     return result;
   }
@@ -175,6 +177,10 @@ PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_p
     for (std::size_t seat = 0; seat < seats(); ++seat) seated_.push_back(task_->scene().seated(pose, seat));
   for (std::size_t seat = 0; seat < seated_.size(); ++seat) attempts_.push_back(attempt_at(seat));
   find_neighbours();
+}
+
+void PoseProblem::prepare(const action::Task& task, action::ActionLibrary& library) {
+  library.probes_in(task.frame().region, task.scene().start, lines_per_side);
 }
 
 BeliefStatePtr PoseProblem::start(const JointVector& q) {

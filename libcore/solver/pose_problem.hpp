@@ -23,6 +23,10 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
               std::shared_ptr<Predictions> predictions, double bits, double cost_per_bit,
               SecondValue second = SecondValue::greedy, bool nothing_met = false);
 
+  /// Makes the anchored motions for a belief that is the whole prior, of a robot that stands at the scene's start,
+  /// ahead of the call that asks for them. Some tenths of a second.
+  static void prepare(const action::Task& task, action::ActionLibrary& library);
+
   /// The belief at the start: all poses.
   BeliefStatePtr start(const robot::JointVector& q);
 
