@@ -23,7 +23,7 @@ constexpr double farther = 6.0;           // times as far, each time that this w
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
 constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then;
-constexpr double least_sample = 0.5;      // and so many if they aren't, or it is not known yet
+constexpr double least_sample = 0.5;      // and so many at least
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
 bool has_met_something(const std::vector<belief::Trace>& history) {
@@ -48,7 +48,7 @@ Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOption
       options_(options),
       library_(std::make_shared<action::ActionLibrary>(*model_->task)),
       rng_(support::mix(options.seed ^ own_stream)),
-      sample_(std::isinf(options.budget_seconds) ? search_sample : least_sample) {
+      sample_(std::isinf(options.budget_seconds) ? search_sample : 1.0) {
   check(options_);
   if (is_bounded()) PoseProblem::prepare(*model_->task, *library_);
 }
@@ -170,9 +170,9 @@ void Planner::predict(const belief::Belief& belief) {
   predictions_ = std::move(predictions);
 }
 
-/// Poses to plan on, by all that was seen so far; many as long as nothing was met.
+/// Poses to plan on, by all that was seen so far: with bounds as many as fit, and many as long as nothing was met.
 std::vector<belief::Drawn> Planner::draw(const belief::Belief& belief, const support::Deadline& deadline) {
-  const double times = is_bounded() && !has_met_something(belief.history()) ? sample_ : 1.0;
+  const double times = !is_bounded() ? 1.0 : has_met_something(belief.history()) ? sample_after_ : sample_;
   const auto most = static_cast<std::size_t>(times * static_cast<double>(model_->options.particles));
   if (belief.phase() == belief::Phase::poses) return belief.draw(most, rng_, poses_, deadline);
   return belief.draw_feasible(most, rng_, poses_, deadline);
@@ -205,18 +205,19 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   policy_ =
       std::make_unique<Policy>(Policy{Search(has_poses ? on_poses(belief) : on_voxels(belief, deadline), search)});
   const bool searches = search.bounded && !has_met_something(belief.history());
-  if (greedy_of(options_.solver) || searches)
-    policy_->search.expand_start(deadline);
-  else
-    policy_->search.run(deadline);
-  if (searches) fit_sample(deadline.elapsed_seconds() / options_.budget_seconds);
+  const bool is_greedy = greedy_of(options_.solver).has_value();
+  if (is_greedy || search.bounded) policy_->search.expand_start(deadline);
+  const double used = deadline.elapsed_seconds() / options_.budget_seconds;
+  if (search.bounded) fit_sample(searches ? sample_ : sample_after_, searches ? search_sample : 1.0, used);
+  if (!is_greedy && !searches) policy_->search.run(deadline);
 }
 
-/// As many poses as there is time to weigh all motions for, by the share of the budget that the last ones `used`.
-void Planner::fit_sample(double used) {
+/// As many poses as there is time to weigh all motions at the start for, by the share of the budget that the last ones
+/// `used`.
+void Planner::fit_sample(double& times, double most, double used) const {
   constexpr double aim = 0.7, at_least = 0.4, at_most = 1.6;
   if (std::isinf(options_.budget_seconds)) return;
-  sample_ = std::clamp(sample_ * std::clamp(aim / used, at_least, at_most), least_sample, search_sample);
+  times = std::clamp(times * std::clamp(aim / used, at_least, at_most), least_sample, most);
 }
 
 /// Notes what there is to follow.

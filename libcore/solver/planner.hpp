@@ -65,7 +65,7 @@ class Planner {
   void predict(const belief::Belief& belief);
   bool is_bounded() const { return second_value_of(options_.solver) == SecondValue::upper_bound; }
   std::vector<belief::Drawn> draw(const belief::Belief& belief, const support::Deadline& deadline);
-  void fit_sample(double used);
+  void fit_sample(double& times, double most, double used) const;
   BeliefStatePtr on_voxels(const belief::Belief& belief, const support::Deadline& deadline);
   BeliefStatePtr on_poses(const belief::Belief& belief);
   void plan(const belief::Belief& belief, support::Deadline& deadline);
@@ -96,6 +96,7 @@ class Planner {
   };
   Standing standing_;
   double sample_;                             ///< times as many poses as long as nothing was met
+  double sample_after_ = 1.0;                 ///< and from then on
   std::vector<belief::Drawn> poses_;          ///< of the last planning call on poses
   std::shared_ptr<Predictions> predictions_;  ///< of them
   std::unique_ptr<Policy> policy_;
