@@ -303,19 +303,49 @@ void act_until_contact(Planner& planner, const PlainWorld& world, Belief& belief
   }
 }
 
+bool has_touched(const Belief& belief) {
+  return std::any_of(belief.history().begin(), belief.history().end(),
+                     [](const belief::Trace& trace) { return trace.contact; });
+}
+
+/// As long as nothing was met a robot does not turn about where it is; then it feels about what it has met.
+TEST(Bounded, GoesOnUntilItMeetsSomethingAndFeelsAboutThatThen) {
+  int looked = 0, felt = 0;
+  for (const std::uint64_t seed : {50u, 51u, 52u}) {
+    Rng rng(seed);
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(2, Solver::brtdp_bel));
+    for (int i = 0; i < 6; ++i) {
+      const bool is_looking = !has_touched(belief);
+      const Answer answer = planner.query(belief);
+      if (!answer.action) break;
+      for (const solver::Alternative& alternative : planner.alternatives()) {
+        const action::Motion& motion = *alternative.choice.motion;
+        const bool is_near_poke = motion.kind == action::Kind::poke && !motion.anchored;
+        EXPECT_FALSE(is_looking && (is_near_poke || motion.kind == action::Kind::turn));
+        looked += is_looking;
+        felt += is_near_poke;
+      }
+      belief.step(*answer.action, world.execute(*answer.action));
+    }
+  }
+  EXPECT_GT(looked, 10);
+  EXPECT_GT(felt, 10);
+}
+
 const solver::Choice& chosen_by(const Planner& planner) {
   const auto chosen = std::find_if(planner.alternatives().begin(), planner.alternatives().end(),
                                    [](const auto& a) { return a.verdict == solver::Verdict::chosen; });
   return chosen->choice;
 }
 
-/// A robot that is halted again and again learns nothing, but for what its belief finds by looking closer at what it
-/// knows: then it goes back the way it came, and sets out anew.
 double cost_of(const motion::JointPath& way) {
   return task()->cost(motion::tool_travel(*task()->scene().robot, task()->scene().tool_link, way));
 }
 
-/// From a contact a little, and farther each time it is halted there.
+/// A robot that is halted again and again learns nothing, but for what its belief finds by looking closer at what it
+/// knows: so from a contact it goes back a little, and farther each time it is halted there.
 TEST(Stuck, GoesBackAsItCameBeforeItSetsOutForAnythingElse) {
   constexpr double back_off = 0.01, farther = 6.0;
   int stuck = 0;
