@@ -81,7 +81,9 @@ bool in_same_posture(const JointVector& a, const JointVector& b) {
 
 std::vector<double> layers(const Task& task, const Box& region, double first) {
   const double between = std::max(0.0, region.size().z() - thickness(task.scene().target));
-  const int more = std::clamp(static_cast<int>(std::ceil(between / layer_spacing)), 0, most_layers - 1);
+  const bool one_reaches_all = between < 0.5 * first;
+  const int more =
+      one_reaches_all ? 0 : std::clamp(static_cast<int>(std::ceil(between / layer_spacing)), 1, most_layers - 1);
   std::vector<double> depths{first};
   for (int k = 1; k <= more; ++k) depths.push_back(first + k * between / more);
   return depths;

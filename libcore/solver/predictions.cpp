@@ -75,7 +75,7 @@ std::size_t Predictions::first_contact(const MotionPtr& motion, std::size_t pose
     double deeper = motion->kind == action::Kind::insertion ? 0.0 : misses_[pose];
     if (may_graze(motion)) deeper = std::max(deeper, 0.5 * blur_);
     const double within = target.margin() - deeper;
-    const bool is_near_before = motion->anchored && within <= blur_;  // and will be asked for
+    const bool is_near_before = motion->anchored && blur_ > 0.0 && within <= blur_;  // and will be asked for
     const std::size_t from = is_near_before ? std::max<std::size_t>(1, first_near(motion, pose)) : 1;
     stored = static_cast<std::int32_t>(
         target.first_within(motion->bodies, poses_[pose], within, from).value_or(motion->path.size()));

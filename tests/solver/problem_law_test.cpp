@@ -163,7 +163,11 @@ TEST(Choices, AreSplitByWhereEachPoseIsFirstTouched) {
     if (!at.on_poses && at.poses.size() < trusted) return;
     for (const Choice& choice : choices) {
       const auto total = static_cast<double>(at.poses.size());
-      const std::size_t least = at.on_poses ? solver::least_group(at.poses.size(), 3) : 1;
+      std::size_t touched = 0;
+      for (const Outcome& outcome : choice.outcomes)
+        if (outcome.waypoint < choice.motion->path.size())
+          touched += touched_at(*choice.motion, at.poses, outcome).size();
+      const std::size_t least = at.on_poses ? solver::least_group(touched, 3) : 1;
       for (std::size_t z = 0; z < choice.outcomes.size(); ++z) {
         const Outcome& outcome = choice.outcomes[z];
         const std::size_t held = touched_at(*choice.motion, at.poses, outcome).size();
