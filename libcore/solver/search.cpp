@@ -28,14 +28,14 @@ double Choice::contact_probability() const {
   double sum = 0.0;
   for (const Outcome& outcome : outcomes)
     if (outcome.waypoint < motion->path.size()) sum += outcome.probability;
-  return sum;
+  return std::min(1.0, sum);
 }
 
 double Choice::goal_probability() const {
   double sum = 0.0;
   for (const Outcome& outcome : outcomes)
     if (outcome.goal) sum += outcome.probability;
-  return sum;
+  return std::min(1.0, sum);
 }
 
 double Choice::information() const {
