@@ -105,9 +105,6 @@ MotionPtr Lattice::made(std::size_t place, std::size_t direction) const {
   if (!path || path->size() < 2) return nullptr;
   Motion motion;
   motion.path = std::move(*path);
-  motion.pace = {{0,
-                  {task_.options().motion.approach_speed, task_.options().motion.acceleration,
-                   task_.options().motion.joint_acceleration}}};
   return finished(task_, std::move(motion));
 }
 

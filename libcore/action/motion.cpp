@@ -6,6 +6,9 @@
 namespace tactus::action {
 
 MotionPtr finished(const Task& task, Motion motion) {
+  const MotionOptions& options = task.options().motion;
+  if (motion.pace.empty())
+    motion.pace = {{0, {options.approach_speed, options.acceleration, options.joint_acceleration}}};
   motion.bodies = BodyPath(task.bodies(), motion.path);
   motion.cost_to.assign(1, 0.0);
   const CostWeights& weights = task.options().cost;

@@ -29,7 +29,7 @@ struct Motion {
 
 using MotionPtr = std::shared_ptr<const Motion>;
 
-/// Fills `bodies`, `cost_to` and `base_from_start` from the path.
+/// Fills `bodies`, `cost_to` and `base_from_start` from the path; a motion without a pace goes at the approach speed.
 MotionPtr finished(const Task& task, Motion motion);
 
 /// The first `waypoints` of a motion.

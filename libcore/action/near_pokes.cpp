@@ -26,8 +26,6 @@ MotionPtr near_poke(const Task& task, const JointPath& retreat, const Vector3& w
   Motion motion;
   motion.kind = Kind::poke;
   motion.path = std::move(*path);
-  const MotionOptions& options = task.options().motion;
-  motion.pace = {{0, {options.approach_speed, options.acceleration, options.joint_acceleration}}};
   return finished(task, std::move(motion));
 }
 

@@ -10,13 +10,11 @@ namespace {
 template <typename Extent>
 void add_ray(const Task& task, Kind kind, const JointVector& q, const Pose& base_from_goal, std::vector<double> lengths,
              Extent extent, std::vector<MotionPtr>& motions) {
-  const MotionOptions& options = task.options().motion;
-  auto path = task.straight_path(q, base_from_goal, options.step, true);
+  auto path = task.straight_path(q, base_from_goal, task.options().motion.step, true);
   if (!path || path->size() < 2) return;
   Motion longest;
   longest.kind = kind;
   longest.path = std::move(*path);
-  longest.pace = {{0, {options.approach_speed, options.acceleration, options.joint_acceleration}}};
   const MotionPtr whole = finished(task, std::move(longest));
   std::sort(lengths.begin(), lengths.end());
   std::size_t last = 1;

@@ -99,7 +99,6 @@ MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3
   motion.kind = kind;
   motion.anchored = true;
   motion.path = {*start};
-  motion.pace = {{0, {options.approach_speed, options.acceleration, options.joint_acceleration}}};
   for (std::size_t i = 1; i < goals.size(); ++i) {
     const auto leg = task.straight_path(motion.path.back(), goals[i], options.step);
     if (!leg) return nullptr;

@@ -132,11 +132,7 @@ class PoseState : public BeliefState {
                                                                 motion->base_from_start)
                                          : 0.0;
     Choice choice{motion, {}};
-    std::size_t touched = 0;
-    members_.for_each([&](std::size_t pose) {
-      touched += problem_->predictions_->first_contact(motion, pose) < motion->path.size();
-    });
-    const std::size_t least = least_group(touched, problem_->dimensions());
+    const std::size_t least = problem_->predictions_->least_told_apart(motion, members_, problem_->dimensions());
     for (const auto& [waypoint, last, group, expected] : problem_->predictions_->split(motion, members_, least)) {
       Outcome outcome;
       outcome.waypoint = waypoint;

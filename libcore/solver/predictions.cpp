@@ -148,6 +148,12 @@ std::vector<Group> Predictions::split(const MotionPtr& motion, const support::Bi
   return groups;
 }
 
+std::size_t Predictions::least_told_apart(const MotionPtr& motion, const support::Bitset& members, int dimensions) {
+  std::size_t touched = 0;
+  members.for_each([&](std::size_t pose) { touched += first_contact(motion, pose) < motion->path.size(); });
+  return least_group(touched, dimensions);
+}
+
 support::Bitset Predictions::subset(const MotionPtr& motion, const support::Bitset& members, std::size_t first,
                                     std::size_t last) {
   support::Bitset kept(members.size());

@@ -57,6 +57,9 @@ class Predictions {
   /// first; but never with those that are not touched.
   std::vector<Group> split(const action::MotionPtr& motion, const support::Bitset& members, std::size_t least = 1);
 
+  /// `least_group` of those of a set that the motion touches.
+  std::size_t least_told_apart(const action::MotionPtr& motion, const support::Bitset& members, int dimensions);
+
   /// Those of a set whose first contact is at `first` to `last`.
   support::Bitset subset(const action::MotionPtr& motion, const support::Bitset& members, std::size_t first,
                          std::size_t last);

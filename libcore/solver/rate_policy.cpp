@@ -141,8 +141,9 @@ void RatePolicy::for_each_group(std::size_t motion, const Members& members, Visi
   std::sort(sorted_.begin(), sorted_.end());
   const auto untouched = static_cast<std::int32_t>(motions_[motion]->path.size());
   const auto touched =
-      std::count_if(sorted_.begin(), sorted_.end(), [&](const auto& entry) { return entry.first != untouched; });
-  const auto least = static_cast<std::ptrdiff_t>(least_group(static_cast<std::size_t>(touched), dimensions_));
+      std::partition_point(sorted_.begin(), sorted_.end(), [&](const auto& entry) { return entry.first < untouched; });
+  const auto count = static_cast<std::size_t>(touched - sorted_.begin());
+  const auto least = static_cast<std::ptrdiff_t>(least_group(count, dimensions_));
   for (auto begin = sorted_.begin(); begin != sorted_.end();) {
     const auto differs = [](std::int32_t at) { return [at](const auto& entry) { return entry.first != at; }; };
     auto end = std::find_if(begin, sorted_.end(), differs(begin->first));

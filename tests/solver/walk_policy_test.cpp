@@ -96,14 +96,14 @@ TEST(WalkPolicy, CostsNoLessThanItsBestFirstStepAndWhatFollows) {
 
 /// Where the target may be far away, going on where the tool is pays: that is what the walk is for.
 TEST(WalkPolicy, CostsLessThanSweepsWhereThePriorIsWide) {
-  const auto wide = small_task({.roll_width = 0.2, .position_width = 0.3});
+  const auto wide = small_task({.roll_width = 0.2, .position_width = 0.4});
   for (const std::uint64_t seed : {3u, 4u, 5u}) {
     Rng rng(seed);
     Walking setting(60, rng, wide);
     Members all(60);
     std::iota(all.begin(), all.end(), std::size_t{0});
     const Pose home = wide->base_from_tool(wide->home());
-    EXPECT_LT(setting.walk.cost(all, home), setting.rate.cost(all, home)) << "seed " << seed;
+    EXPECT_LT(setting.walk.cost(all, home), 0.95 * setting.rate.cost(all, home)) << "seed " << seed;
   }
 }
 

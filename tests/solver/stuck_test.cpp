@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solver/planner_setting.hpp"
+
+/// A planner as the search goes on: what it does where the belief does not shrink, and where it is contradicted.
+namespace tactus::test {
+namespace {
+
+/// What one belief was down to is not what another has to beat.
+TEST(Progress, IsOfOneBeliefAlone) {
+  const PlainWorld world(*task(), task()->scene().prior.central_pose());
+  const auto m = model(Kind::particles);
+  Planner used(m, within(10)), fresh(m, within(10));
+  action::ActionLibrary library(*task());
+  Belief narrow(m, task()->scene().start);
+  const action::Action in =
+      insertion_at(*task(), library, narrow.configuration(), task()->scene().prior.central_pose());
+  narrow.step(in, world.execute(in));
+  narrow.set_configuration(task()->scene().start);
+  used.query(narrow);
+  Rng rng(8);
+  for (Planner* planner : {&used, &fresh}) {
+    int small = 0;
+    for (int episode = 0; episode < 6; ++episode) {
+      const PlainWorld hidden(*task(), task()->scene().prior.sample(rng));
+      Belief belief(m, task()->scene().start);
+      for (int i = 0; i < 6; ++i) {
+        const Answer answer = planner->query(belief);
+        if (!answer.action) break;
+        small += answer.action->kind == action::Kind::move || answer.action->kind == action::Kind::turn;
+        belief.step(*answer.action, hidden.execute(*answer.action));
+      }
+    }
+    EXPECT_GT(small, 3) << (planner == &used ? "used" : "fresh");
+  }
+}
+
+/// Asked again before anything was done, a planner does not take its own answer for one that led nowhere: small
+/// motions, which it gives up when a belief stalls, stay among its answers.
+TEST(Progress, IsNotLostByAskingAgain) {
+  Rng rng(9);
+  int small = 0;
+  for (int episode = 0; episode < 6; ++episode) {
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(10));
+    const Answer first = planner.query(belief);
+    ASSERT_TRUE(first.action);
+    belief.step(*first.action, world.execute(*first.action));
+    for (int i = 0; i < 8; ++i) {
+      const Answer answer = planner.query(belief);
+      if (answer.kind == Answer::Kind::goal_reached) break;
+      ASSERT_TRUE(answer.action);
+      small += i >= 4 && (answer.action->kind == action::Kind::move || answer.action->kind == action::Kind::turn);
+    }
+  }
+  EXPECT_GT(small, 0);
+}
+
+/// Where two ways part.
+std::size_t in_common(const motion::JointPath& a, const motion::JointPath& b) {
+  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
+}
+
+double past_plane(const JointVector& q, const JointVector& start) {
+  const Vector3 axis = task()->frame().base_from_search.linear().col(2);
+  return axis.dot(task()->base_from_tool(q).translation() - task()->base_from_tool(start).translation());
+}
+
+void act_until_contact(Planner& planner, const PlainWorld& world, Belief& belief) {
+  while (belief.history().empty() || !belief.history().back().contact) {
+    const Answer answer = planner.query(belief);
+    ASSERT_TRUE(answer.action);
+    belief.step(*answer.action, world.execute(*answer.action));
+  }
+}
+
+bool has_touched(const Belief& belief) {
+  return std::any_of(belief.history().begin(), belief.history().end(),
+                     [](const belief::Trace& trace) { return trace.contact; });
+}
+
+/// As long as nothing was met a robot does not turn about where it is; then it feels about what it has met.
+TEST(Bounded, GoesOnUntilItMeetsSomethingAndFeelsAboutThatThen) {
+  int looked = 0, felt = 0;
+  for (const std::uint64_t seed : {50u, 51u, 52u}) {
+    Rng rng(seed);
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(2, Solver::brtdp_bel));
+    for (int i = 0; i < 6; ++i) {
+      const bool is_looking = !has_touched(belief);
+      const Answer answer = planner.query(belief);
+      if (!answer.action) break;
+      for (const solver::Alternative& alternative : planner.alternatives()) {
+        const action::Motion& motion = *alternative.choice.motion;
+        const bool is_near_poke = motion.kind == action::Kind::poke && !motion.anchored;
+        EXPECT_FALSE(is_looking && (is_near_poke || motion.kind == action::Kind::turn));
+        looked += is_looking;
+        felt += is_near_poke;
+      }
+      belief.step(*answer.action, world.execute(*answer.action));
+    }
+  }
+  EXPECT_GT(looked, 10);
+  EXPECT_GT(felt, 10);
+}
+
+const solver::Choice& chosen_by(const Planner& planner) {
+  const auto chosen = std::find_if(planner.alternatives().begin(), planner.alternatives().end(),
+                                   [](const auto& a) { return a.verdict == solver::Verdict::chosen; });
+  return chosen->choice;
+}
+
+double cost_of(const motion::JointPath& way) {
+  return task()->cost(motion::tool_travel(*task()->scene().robot, task()->scene().tool_link, way));
+}
+
+/// A robot that is halted again and again learns nothing, but for what its belief finds by looking closer at what it
+/// knows: so from a contact it goes back a little, and farther each time it is halted there.
+TEST(Stuck, GoesBackAsItCameBeforeItSetsOutForAnythingElse) {
+  constexpr double back_off = 0.01, farther = 6.0;
+  int stuck = 0;
+  for (const std::uint64_t seed : {10u, 11u, 12u}) {
+    Rng rng(seed);
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(6));
+    ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
+    double weight = 0.0;
+    for (int i = 0, halts = 0; i < 14; ++i, ++halts) {
+      if (belief.cells().weight() != weight) weight = belief.cells().weight(), halts = 0;
+      const Answer answer = planner.query(belief);
+      if (!answer.action) break;
+      if (answer.action->kind >= action::Kind::sweep) {
+        ++stuck;
+        const motion::JointPath way = belief.way_back();
+        const motion::JointPath& path = answer.action->path;
+        const JointVector& start = path[answer.action->lead];
+        const std::size_t along = in_common(way, path);
+        ASSERT_GT(along, 0u);
+        EXPECT_TRUE(along == way.size() || past_plane(way[along - 1], start) <= 1e-6 ||
+                    cost_of({way.begin(), way.begin() + static_cast<std::ptrdiff_t>(along)}) >=
+                        back_off * std::pow(farther, halts))
+            << along << " of " << way.size() << ", halted " << halts << " times";
+      }
+      belief.step(*answer.action, {false, belief.configuration()});
+    }
+  }
+  EXPECT_GT(stuck, 6);
+}
+
+/// A robot that goes on where it was stopped and feels nothing errs: it may travel on after contacts, and goes back
+/// farther after the next.
+TEST(Contradicted, HasTheRobotGoBackFarther) {
+  int contradicted = 0, farther = 0;
+  for (std::uint64_t seed = 14; seed < 34 && contradicted < 2; ++seed) {
+    Rng rng(seed);
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(4));
+    ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
+    EXPECT_EQ(belief.sensing(), action::Sensing{});
+    const robot::JointVector stop = belief.history().back().path.back(), free = belief.configuration();
+    const robot::JointVector beyond = stop + 0.02 * (stop - free).normalized();
+    belief.step(action_along(*task(), {free, stop, beyond}), {false, beyond});
+    if (belief.health() != belief::Health::contradicted) continue;  // it may have grazed the target
+    ++contradicted;
+    EXPECT_GT(belief.sensing().stopping_distance, 0.0);
+    const Answer answer = planner.query(belief);
+    ASSERT_TRUE(answer.action);
+    EXPECT_EQ(answer.action->sensing, belief.sensing());
+    action::Action without = *answer.action;
+    without.sensing = {};
+    const belief::Observation felt{true, answer.action->path.back()};
+    const std::size_t last_free = belief::locate(*task(), *answer.action, felt).last_free;
+    EXPECT_LE(last_free, belief::locate(*task(), without, felt).last_free);
+    farther += last_free < belief::locate(*task(), without, felt).last_free;
+  }
+  EXPECT_EQ(contradicted, 2);
+  EXPECT_GT(farther, 0);
+}
+
+/// What was met without avail is not sought again.
+TEST(Stuck, SeeksNoContactLikeTheLastThatToldNothing) {
+  int asked = 0;
+  for (std::uint64_t seed = 15; seed < 31; ++seed) {
+    Rng rng(seed);
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(4));
+    ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
+    double bits = std::log2(belief.cells().weight());
+    for (int i = 0; i < 8; ++i) {
+      const Answer answer = planner.query(belief);
+      if (!answer.action) break;
+      const double now = std::log2(belief.cells().weight());
+      const auto touch = solver::touch_of(belief.history().back());
+      if (i > 0 && touch && now > bits - 0.1) {
+        ++asked;
+        EXPECT_LE(share_alike(chosen_by(planner), {*touch}), 0.9);
+      }
+      bits = std::min(bits, now);
+      belief.step(*answer.action, world.execute(*answer.action));
+    }
+  }
+  EXPECT_GT(asked, 4);
+}
+
+/// And if that does not help either: small motions and attempts are set aside in turn, and tried again.
+TEST(Stuck, TriesEverythingAgainInTurn) {
+  Rng rng(13);
+  const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+  Belief belief(model(Kind::particles), task()->scene().start);
+  Planner planner(model(Kind::particles), within(4));
+  ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
+  std::vector<std::pair<bool, bool>> kept;  // whether small motions, and attempts, were
+  for (int i = 0; i < 16; ++i) {
+    const Answer answer = planner.query(belief);
+    ASSERT_TRUE(answer.action) << i;
+    bool small = false, attempts = false;
+    for (const solver::Alternative& alternative : planner.alternatives()) {
+      if (alternative.verdict == solver::Verdict::set_aside) continue;
+      small = small || !alternative.choice.motion->anchored;
+      attempts = attempts || alternative.choice.motion->kind == action::Kind::insertion;
+    }
+    kept.emplace_back(small, attempts);
+    belief.step(*answer.action, {false, belief.configuration()});
+  }
+  const auto first_without_both = std::find(kept.begin(), kept.end(), std::pair(false, false));
+  const auto first_without_small = std::find(first_without_both, kept.end(), std::pair(false, true));
+  EXPECT_NE(first_without_small, kept.end());
+  EXPECT_NE(std::find(first_without_small, kept.end(), std::pair(true, true)), kept.end());
+}
+
+/// A robot that does not err, and was stopped by something, would be stopped there again.
+TEST(Stuck, DoesNotGoAgainWhereASmallMotionMetSomething) {
+  int asked = 0;
+  for (std::uint64_t seed = 40; seed < 52; ++seed) {
+    Rng rng(seed);
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(3, Solver::rate));
+    std::vector<motion::JointPath> met;
+    for (int i = 0; i < 14; ++i) {
+      const Answer answer = planner.query(belief);
+      if (!answer.action) break;
+      const motion::JointPath& path = answer.action->path;
+      const bool is_small = answer.action->kind < action::Kind::sweep;
+      for (const motion::JointPath& way : met) {
+        ++asked;
+        EXPECT_FALSE(is_small && in_common(way, path) == way.size()) << "seed " << seed << ", action " << i;
+      }
+      belief.step(*answer.action, world.execute(*answer.action));
+      const belief::Trace& last = belief.history().back();
+      if (is_small && last.contact)
+        met.emplace_back(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(last.outcome + 1));
+    }
+  }
+  EXPECT_GT(asked, 20);
+}
+
+}  // namespace
+}  // namespace tactus::test
