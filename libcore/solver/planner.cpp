@@ -131,11 +131,12 @@ void Planner::note_fruitless(const belief::Belief& belief) {
   standing_.history = belief::fingerprint(history, history.size());
 }
 
-/// Counts how often in a row it was stopped before it was out; a small motion that meets something changes nothing.
+/// Counts how often in a row it was stopped before it was out: a small motion says nothing of the way out, free or not.
 void Planner::note_halt(const belief::Trace& last) {
-  const bool is_halted = last.outcome <= policy_->lead;
-  const bool came_through = !last.contact || policy_->lead > 0;
-  standing_.halts = is_halted ? standing_.halts + 1 : came_through ? 0 : standing_.halts;
+  if (last.outcome <= policy_->lead)
+    ++standing_.halts;
+  else if (policy_->lead > 0)
+    standing_.halts = 0;
 }
 
 /// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed

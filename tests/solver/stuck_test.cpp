@@ -120,22 +120,23 @@ double cost_of(const motion::JointPath& way) {
 }
 
 /// A robot that is halted again and again learns nothing, but for what its belief finds by looking closer at what it
-/// knows: so from a contact it goes back a little, and farther each time it is halted there.
+/// knows: so from a contact it goes back a little, and farther each time it is halted, whether or not it turns about
+/// and makes small moves there in between.
 TEST(Stuck, GoesBackAsItCameBeforeItSetsOutForAnythingElse) {
   constexpr double back_off = 0.01, farther = 6.0;
   int stuck = 0;
-  for (const std::uint64_t seed : {10u, 11u, 12u}) {
+  for (const std::uint64_t seed : {10u, 11u, 12u, 13u, 14u, 15u}) {
+    const bool small_motions_are_free = seed > 12;
     Rng rng(seed);
     const PlainWorld world(*task(), task()->scene().prior.sample(rng));
     Belief belief(model(Kind::particles), task()->scene().start);
     Planner planner(model(Kind::particles), within(6));
     ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
-    double weight = 0.0;
-    for (int i = 0, halts = 0; i < 14; ++i, ++halts) {
-      if (belief.cells().weight() != weight) weight = belief.cells().weight(), halts = 0;
+    for (int i = 0, halts = 0; i < 14; ++i) {
       const Answer answer = planner.query(belief);
       if (!answer.action) break;
-      if (answer.action->kind >= action::Kind::sweep) {
+      const bool is_anchored = chosen_by(planner).motion->anchored;
+      if (is_anchored && (belief.history().back().contact || halts > 0)) {
         ++stuck;
         const motion::JointPath way = belief.way_back();
         const motion::JointPath& path = answer.action->path;
@@ -147,10 +148,12 @@ TEST(Stuck, GoesBackAsItCameBeforeItSetsOutForAnythingElse) {
                         back_off * std::pow(farther, halts))
             << along << " of " << way.size() << ", halted " << halts << " times";
       }
-      belief.step(*answer.action, {false, belief.configuration()});
+      const bool is_halted = is_anchored || !small_motions_are_free;
+      halts += is_halted;
+      belief.step(*answer.action, {false, is_halted ? belief.configuration() : answer.action->path.back()});
     }
   }
-  EXPECT_GT(stuck, 6);
+  EXPECT_GT(stuck, 12);
 }
 
 /// A robot that goes on where it was stopped and feels nothing errs: it may travel on after contacts, and goes back
