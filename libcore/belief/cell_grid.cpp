@@ -3,15 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include "belief/cell_tables.hpp"
+#include "support/parallel.hpp"
 
 namespace tactus::belief {
 namespace {
 
-constexpr double gimbal_lock = 1e-6;  // of the pitch's cosine: roll and yaw show no more than their sum
-constexpr double widening = 1.02;     // of cells, until there are few enough
+constexpr std::size_t shared_out = 256;  // parts of a grid among threads
+constexpr double gimbal_lock = 1e-6;     // of the pitch's cosine: roll and yaw show no more than their sum
+constexpr double widening = 1.02;        // of cells, until there are few enough
 
 using Counts = std::array<int, 6>;
 
@@ -57,8 +60,14 @@ class CellGrid::Sieve {
  public:
   Sieve(CellGrid& grid, const Task& task, const Excludes& excludes) : grid_(grid), task_(task), excludes_(excludes) {}
 
-  void sift(const Box& box, std::vector<Claim> claims, bool may_exclude) {
-    if (!grid_.any_in(box)) return;
+  void sift(Part part) {
+    for (Part& half : decide(std::move(part))) sift(std::move(half));
+  }
+
+  /// Drops a part or leaves it, as a whole; else its halves are still to be decided.
+  std::vector<Part> decide(Part part) {
+    const Box& box = part.box;
+    if (!grid_.any_in(box)) return {};
     PoseVector centre, half;
     bool is_cell = true;
     for (int d = 0; d < 6; ++d) {
@@ -68,10 +77,13 @@ class CellGrid::Sieve {
     }
     const double radius = scene::cell_radius(half, grid_.reach_);
     const Pose pose = geometry::pose_from(centre);
-    if ((may_exclude && excludes_ && excludes_(pose, radius)) || !agree(claims, pose, radius, is_cell))
-      return grid_.drop(box);
-    if (is_cell || (claims.empty() && !(may_exclude && excludes_))) return;
-    for (const Box& part : halves(box, half)) sift(part, claims, may_exclude);
+    if ((excludes_ && excludes_(pose, radius)) || !agree(part.claims, pose, radius, is_cell)) {
+      grid_.drop(box);
+      return {};
+    }
+    if (is_cell || (part.claims.empty() && !excludes_)) return {};
+    const auto [low, high] = halves(box, half);
+    return {{low, part.claims}, {high, part.claims}};
   }
 
  private:
@@ -195,7 +207,7 @@ void CellGrid::drop(const Box& box) {
 }
 
 void CellGrid::sift(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes,
-                    const CellTables* tables) {
+                    const CellTables* tables, int threads) {
   std::vector<Trace> rests;
   rests.reserve(traces.size());
   std::vector<Claim> claims;
@@ -208,8 +220,29 @@ void CellGrid::sift(const Task& task, const std::vector<const Trace*>& traces, c
     if (!trace->path.empty()) claims.push_back({trace, 0});
   }
   std::stable_partition(claims.begin(), claims.end(), [](const Claim& claim) { return claim.trace->contact; });
-  if (!claims.empty() || excludes) Sieve(*this, task, excludes).sift({{}, shape_.count}, claims, true);
+  if (!claims.empty() || excludes) sift(task, {{{}, shape_.count}, std::move(claims)}, excludes, threads);
   left_ = members_.count();
+}
+
+/// Level by level until there are enough parts to share out; each thread drops cells of its own copy.
+void CellGrid::sift(const Task& task, Part whole, const Excludes& excludes, int threads) {
+  Sieve sieve(*this, task, excludes);
+  std::vector<Part> parts{std::move(whole)};
+  while (!parts.empty() && parts.size() < shared_out) {
+    std::vector<Part> halves;
+    for (Part& part : parts)
+      for (Part& half : sieve.decide(std::move(part))) halves.push_back(std::move(half));
+    parts = std::move(halves);
+  }
+  const CellGrid before = *this;
+  std::mutex mutex;
+  support::for_ranges(parts.size(), threads, [&](std::size_t begin, std::size_t end) {
+    CellGrid own = before;
+    Sieve own_sieve(own, task, excludes);
+    for (std::size_t i = begin; i < end; ++i) own_sieve.sift(std::move(parts[i]));
+    const std::lock_guard lock(mutex);
+    members_ &= own.members_;
+  });
 }
 
 }  // namespace tactus::belief

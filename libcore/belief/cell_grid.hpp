@@ -55,9 +55,10 @@ class CellGrid {
 
   /// Drops the cells in which no pose can have given every trace, or that `excludes` says so of. Asks boxes of cells
   /// before cells: what a motion comes nowhere near, and what it sweeps through, is decided as a whole. O(cells at the
-  /// edge of that). What `tables` of cells of this shape tell is not asked.
+  /// edge of that). What `tables` of cells of this shape tell is not asked. `threads` as in `support::for_ranges`; the
+  /// same cells are left whatever their number.
   void sift(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes = {},
-            const CellTables* tables = nullptr);
+            const CellTables* tables = nullptr, int threads = 1);
 
  private:
   struct Box {
@@ -67,9 +68,14 @@ class CellGrid {
     const Trace* trace;
     std::size_t from;  ///< no pose of the box is touched before this waypoint
   };
+  struct Part {
+    Box box;
+    std::vector<Claim> claims;  ///< that not all of its poses are known to meet
+  };
   class Sieve;
   template <typename Row>
   void for_each_row(const Box& box, Row&& row) const;
+  void sift(const Task& task, Part whole, const Excludes& excludes, int threads);
   bool any_in(const Box& box) const;
   bool any_near(const PoseVector& v, double tolerance) const;
   void drop(const Box& box);

@@ -126,7 +126,8 @@ bool CellBelief::update(const Task& task, const std::vector<const Trace*>& trace
   if (grid_) {
     CellGrid sifted = *grid_;
     const CellTables* tables = options_.tables.get();
-    sifted.sift(task, traces, excludes, tables != nullptr && tables->shape() == sifted.shape() ? tables : nullptr);
+    sifted.sift(task, traces, excludes, tables != nullptr && tables->shape() == sifted.shape() ? tables : nullptr,
+                options_.threads);
     if (sifted.size() == 0) return false;
     grid_ = std::move(sifted);
     list_when_few();

@@ -228,6 +228,9 @@ TEST(Cells, OfAGridAreSiftedAsOneByOne) {
       const belief::CellGrid all(belief::cell_shape(task().scene().prior, 0.005, 0.1, 1u << 20), task().target_reach());
       belief::CellGrid sifted = all;
       sifted.sift(task(), {&trace});
+      belief::CellGrid by_three = all;
+      by_three.sift(task(), {&trace}, {}, nullptr, 3);
+      EXPECT_EQ(by_three.members().words(), sifted.members().words());
       const double radius = scene::cell_radius(all.half_width(), task().target_reach());
       all.members().for_each([&](std::size_t cell) {
         const bool may = belief::may_reproduce(task(), trace, geometry::pose_from(all.centre(cell)), radius);
