@@ -287,7 +287,8 @@ double full_cost(const Choice& choice) {
   return any.cost + cost_to.back() - cost_to[std::min(any.waypoint, cost_to.size() - 1)];
 }
 
-/// The best motion at a node, made executable; the next best where the robot can't get to its start.
+/// The best motion at a node, made executable; the next best where the robot can't get to its start, or did so without
+/// avail. What the stage holds back is better than nothing.
 Answer Planner::act(const belief::Belief& belief, int node, const support::Deadline& deadline) {
   Search& search = policy_->search;
   const std::vector<Choice>& choices = search.choices(node);
@@ -301,14 +302,21 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   const motion::JointPath way_back = way_off(belief);
   const std::vector<Touch> touches = touched_in_vain(belief);
   const bool does_not_err = belief.sensing().missed_contacts == 0.0 && belief.sensing().false_contacts == 0.0;
+  std::vector<std::size_t> held_back;
   for (std::size_t i = 0; i < choices.size(); ++i)
     if (is_unpromising(*choices[i].motion) || (does_not_err && is_known(*choices[i].motion)) ||
         share_alike(choices[i], touches) > certain)
-      ban(i, Verdict::set_aside);
-  if (std::find(banned.begin(), banned.end(), false) == banned.end()) std::fill(banned.begin(), banned.end(), false);
-  const auto next = [&] {
+      held_back.push_back(i), ban(i, Verdict::set_aside);
+  const auto best = [&] {
     const auto rule = greedy_of(options_.solver);
     return rule ? greedy_choice(choices, *rule, banned) : search.best(node, banned);
+  };
+  const auto next = [&] {
+    const auto choice = best();
+    if (choice || held_back.empty()) return choice;
+    for (const std::size_t i : held_back) banned[i] = false, verdicts[i] = Verdict::passed_over;
+    held_back.clear();
+    return best();
   };
   for (auto choice = next(); choice; choice = next()) {
     const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
