@@ -13,4 +13,13 @@ namespace tactus::action {
 MotionPtr insertion(const Task& task, const Pose& base_from_target, const JointVector& near, std::size_t seat = 0,
                     std::optional<double> plane = std::nullopt);
 
+/// The same from where the tool is at `q`: back along the approach axis until it is `approach_depth` before the seat, a
+/// centimetre at least, straight across, and in. Not anchored: what it meets on the way tells as much. A robot that
+/// nearly knows where the target is need not go to the retreat plane and back for each attempt.
+MotionPtr near_insertion(const Task& task, const Pose& base_from_target, const JointVector& q, std::size_t seat = 0);
+
+/// What `near_insertion` costs all the way, without the fixed part. `axis`: the approach axis in the base frame.
+double near_insertion_cost(const Task& task, const Pose& base_from_tool, const Pose& base_from_seated,
+                           const Vector3& axis);
+
 }  // namespace tactus::action

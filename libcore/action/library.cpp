@@ -160,7 +160,11 @@ bool ActionLibrary::are_inside_limits(const JointPath& path) const {
 std::optional<Action> ActionLibrary::realise(const JointVector& q, const Motion& motion,
                                              const support::Deadline& deadline, const JointPath& way_back) const {
   const MotionOptions& options = task_.options().motion;
-  if (!motion.anchored) return make_action(task_, motion.kind, motion.path, 0, motion.pace);
+  if (!motion.anchored) {
+    Action action = make_action(task_, motion.kind, motion.path, 0, motion.pace);
+    action.supposed_target = motion.supposed_target;
+    return action;
+  }
   const JointVector& start = motion.path.front();
   JointPath lead = lead_in(way_back.empty() ? JointPath{q} : as_far_as_plane(way_back, start), start, deadline);
   JointPath proper = lead.empty() ? motion.path : shifted(motion.path, lead.back() - start);

@@ -62,7 +62,8 @@ class PoseState : public BeliefState {
       if (!at_start_ || !problem_->leads_nowhere(*motion)) consider(motion);
     if (at_start_ && !problem_->nothing_met_)
       for (const MotionPtr& motion : action::near_pokes(*problem_->task_, q_)) consider(motion);
-    for (const MotionPtr& motion : problem_->insertions(members_, q_, attempts)) consider(motion);
+    const bool nears = !at_start_ || !problem_->nothing_met_;
+    for (const MotionPtr& motion : problem_->insertions(members_, q_, attempts, nears)) consider(motion);
     for (const MotionPtr& motion : anchored()) consider(motion);
     if (at_start_ && result.empty())
       for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);
@@ -265,14 +266,17 @@ void PoseProblem::find_neighbours() {
     }
 }
 
-/// Attempts at the seats that have the most others near by, each for a different group of poses. Where several seats of
-/// a pose are as good the nearest counts, and the others if the arm can't get there.
-std::vector<MotionPtr> PoseProblem::insertions(const Bitset& members, const JointVector& q, std::size_t most) {
+/// Attempts at the seats that have the most others near by, each for a different group of poses; at each from where the
+/// tool is as well, if `nears`. Where several seats of a pose are as good the nearest counts, and the others if the arm
+/// can't get there.
+std::vector<MotionPtr> PoseProblem::insertions(const Bitset& members, const JointVector& q, std::size_t most,
+                                               bool nears) {
   const std::vector<std::size_t> order = seats_of(members, q);
   Bitset left(seated_.size());
   for (const std::size_t seat : order) left.set(seat);
   std::vector<MotionPtr> found;
-  for (std::size_t tries = 0; tries < most * seats() && found.size() < most && !left.none(); ++tries) {
+  std::size_t groups = 0;
+  for (std::size_t tries = 0; tries < most * seats() && groups < most && !left.none(); ++tries) {
     std::size_t best = 0, densest = 0;
     for (const std::size_t seat : order) {
       if (!left.test(seat)) continue;
@@ -284,8 +288,12 @@ std::vector<MotionPtr> PoseProblem::insertions(const Bitset& members, const Join
     served &= left;
     left.and_not(served);
     const MotionPtr motion = insertion_at(best, q);
-    if (!motion) continue;
-    found.push_back(motion);
+    const Pose& pose = predictions_->poses()[best / seats()];
+    const MotionPtr near = nears ? action::near_insertion(*task_, pose, q, best % seats()) : nullptr;
+    if (!motion && !near) continue;
+    ++groups;
+    for (const MotionPtr& attempt : {near, motion})
+      if (attempt) found.push_back(attempt);
     served.for_each([&](std::size_t seat) { left.reset_in(seat - seat % seats(), seat - seat % seats() + seats()); });
     if (densest <= 1) break;
   }
@@ -333,18 +341,16 @@ std::unique_ptr<RatePolicy> PoseProblem::rate_policy(const JointVector& q) {
                                       dimensions());
 }
 
-/// Of getting the tool to a seat, the straight way: by the retreat plane, where every attempt sets out.
+/// Of getting the tool to a seat, the straight way.
 double PoseProblem::seat_cost(const Pose& base_from_tool, std::size_t seat) const {
   const action::CostWeights& weights = task_->options().cost;
   const scene::Target& target = task_->scene().target;
-  const Attempt& attempt = attempts_[seat];
-  const double metres = (attempt.base_from_start.translation() - base_from_tool.translation()).norm();
-  const double radians = geometry::angle_between(base_from_tool, attempt.base_from_start);
+  const double metres = (seated_[seat].translation() - base_from_tool.translation()).norm();
+  const double radians = geometry::angle_between(base_from_tool, seated_[seat]);
   const double tilted = target.angle_tolerance * target.target_from_seated[seat % seats()].translation().norm();
   const double tolerance = target.position_tolerance + tilted;
   return weights.metre * std::max(0.0, metres - tolerance) +
-         weights.radian * std::max(0.0, radians - target.angle_tolerance) +
-         std::max(0.0, attempt.cost - weights.metre * tolerance) + weights.action;
+         weights.radian * std::max(0.0, radians - target.angle_tolerance) + weights.action;
 }
 
 /// The same to the best of a pose's seats.

@@ -41,7 +41,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   action::MotionPtr ending_with_contacts(const action::MotionPtr& motion);
   action::MotionPtr insertion_at(std::size_t seat, const robot::JointVector& near);
   std::vector<action::MotionPtr> insertions(const support::Bitset& members, const robot::JointVector& q,
-                                            std::size_t most);
+                                            std::size_t most, bool nears);
   std::vector<std::size_t> seats_of(const support::Bitset& members, const robot::JointVector& q) const;
   Attempt attempt_at(std::size_t seat) const;
   std::unique_ptr<RatePolicy> rate_policy(const robot::JointVector& q);

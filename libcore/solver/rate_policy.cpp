@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "action/insertion.hpp"
 #include "support/rng.hpp"
 
 namespace tactus::solver {
@@ -52,13 +53,14 @@ RatePolicy::RatePolicy(std::shared_ptr<const action::Task> task, Predictions& pr
 
 double RatePolicy::cost(const Members& members, const Pose& base_from_tool) {
   const Plan& first = plan(members, base_from_tool);
-  return lead(base_from_tool, first.base_from_start) + first.cost;
+  return first_cost(base_from_tool, first) + first.cost;
 }
 
 std::vector<double> RatePolicy::costs(const Members& members, const Pose& base_from_tool) {
   const Plan& first = plan(members, base_from_tool);
   std::vector<double> costs = first.costs;
-  for (double& cost : costs) cost += lead(base_from_tool, first.base_from_start);
+  const double until_then = first_cost(base_from_tool, first);
+  for (double& cost : costs) cost += until_then;
   return costs;
 }
 
@@ -78,26 +80,39 @@ double RatePolicy::lead(const Pose& base_from_tool, const Pose& base_from_start)
   return task_->options().cost.action + action::transit_cost(*task_, base_from_tool, base_from_start);
 }
 
+/// Of getting to the first motion, or to the end of the first attempt.
+double RatePolicy::first_cost(const Pose& base_from_tool, const Plan& plan) const {
+  return plan.attempt ? attempt_cost(base_from_tool, *plan.attempt) : lead(base_from_tool, plan.base_from_start);
+}
+
+/// Over the retreat plane or near by, whichever is cheaper.
+double RatePolicy::attempt_cost(const Pose& base_from_tool, const Attempt& attempt) const {
+  const double near = action::near_insertion_cost(*task_, base_from_tool, attempt.base_from_seated, attempt.axis());
+  return std::min(lead(base_from_tool, attempt.base_from_start) + attempt.cost, task_->options().cost.action + near);
+}
+
 const RatePolicy::Plan& RatePolicy::plan(const Members& members, const Pose& base_from_tool) {
   Bitset set(attempts_.size());
   for (const std::size_t member : members) set.set(member);
   const bool regards_lead = members.size() >= many_members;
   const support::Hash128 key = set.hash(regards_lead ? place_of(base_from_tool) : 0);
-  if (const auto known = plans_.find(key); known != plans_.end()) return known->second;
-  Plan best;
-  if (members.size() > 1) best = probing(members, regards_lead ? &base_from_tool : nullptr);
-  if (members.size() <= few_members || best.cost >= 1e300) {
-    const Plan attempts = attempts_at(members);
-    if (attempts.cost < best.cost) best = attempts;
+  auto known = plans_.find(key);
+  if (known == plans_.end()) {
+    Plans made;
+    if (members.size() > 1) made.probing = probing(members, regards_lead ? &base_from_tool : nullptr);
+    if (members.size() <= few_members || made.probing.cost >= 1e300) made.attempts = attempts_at(members);
+    known = plans_.try_emplace(key, std::move(made)).first;
   }
-  return plans_.try_emplace(key, best).first->second;
+  const auto& [probing, attempts] = known->second;
+  const auto cost = [&](const Plan& plan) { return first_cost(base_from_tool, plan) + plan.cost; };
+  return cost(attempts) < cost(probing) ? attempts : probing;
 }
 
 /// One after another, those that serve the most first.
 RatePolicy::Plan RatePolicy::attempts_at(const Members& members) const {
   Bitset left(attempts_.size());
   for (const std::size_t member : members) left.set(member);
-  Plan plan{Pose::Identity(), {}, 0.0};
+  Plan plan;
   plan.costs.resize(members.size());
   double spent = 0.0;
   const Attempt* last = nullptr;
@@ -111,10 +126,9 @@ RatePolicy::Plan RatePolicy::attempts_at(const Members& members) const {
     }
     const Attempt& next = attempts_[best];
     if (last)
-      spent += lead(last->base_from_seated, next.base_from_start);
+      spent += attempt_cost(last->base_from_seated, next);
     else
-      plan.base_from_start = next.base_from_start;
-    spent += next.cost;
+      plan.attempt = &next;
     for (std::size_t i = 0; i < members.size(); ++i)
       if (left.test(members[i]) && served_[best].test(members[i])) plan.costs[i] = spent;
     left.and_not(served_[best]);
@@ -188,7 +202,7 @@ RatePolicy::Plan RatePolicy::probing(const Members& members, const Pose* base_fr
     std::transform(begin, end, std::back_inserter(group), [](const auto& entry) { return entry.second; });
     std::sort(group.begin(), group.end());
   });
-  Plan plan{motions_[best]->base_from_start, std::vector<double>(members.size()), 0.0};
+  Plan plan{motions_[best]->base_from_start, nullptr, std::vector<double>(members.size()), 0.0};
   for (const auto& [waypoint, group] : groups) {
     const std::vector<double> then = costs(group, motions_[best]->bodies.base_from_body(waypoint - 1, 0));
     auto member = members.begin();

@@ -7,17 +7,22 @@
 
 namespace tactus::solver {
 
-/// An insertion attempt at a supposed pose, as far as it need be known to weigh it.
+/// An insertion attempt at a supposed pose, as far as it need be known to weigh it: over the retreat plane, or from
+/// where the tool is (`near_insertion`).
 struct Attempt {
   geometry::Pose base_from_start = geometry::Pose::Identity();   ///< of the tool, on the retreat plane
   geometry::Pose base_from_seated = geometry::Pose::Identity();  ///< of the tool
   double cost = 0.0;                                             ///< from the one to the other, in units of cost
+  geometry::Vector3 axis() const {
+    return (base_from_seated.translation() - base_from_start.translation()).normalized();
+  }
 };
 
 /// What a simple policy costs that always ends: the motion with the most information per cost, again and again, until
 /// attempts at the poses that are left, one after another, are cheaper. It chooses among anchored motions; where few
 /// poses are left, without regard to where the robot is, so that a set of them is weighed once. An upper bound of the
-/// value of a belief on these poses, as far as the ways over the retreat plane and the attempts are free. One thread.
+/// value of a belief on these poses, as far as the ways over the retreat plane, those from attempt to attempt, and the
+/// attempts are free. One thread.
 class RatePolicy {
  public:
   using Members = std::vector<std::size_t>;  ///< poses, ascending
@@ -41,10 +46,16 @@ class RatePolicy {
  private:
   struct Plan {
     geometry::Pose base_from_start = geometry::Pose::Identity();  ///< of the first motion
-    std::vector<double> costs;                                    ///< from there on, by member
+    const Attempt* attempt = nullptr;                             ///< the first motion, if it is one
+    std::vector<double> costs;                                    ///< from there on, or from its end, by member
     double cost = 1e300;                                          ///< their mean
   };
+  struct Plans {
+    Plan probing, attempts;
+  };
   const Plan& plan(const Members& members, const geometry::Pose& base_from_tool);
+  double first_cost(const geometry::Pose& base_from_tool, const Plan& plan) const;
+  double attempt_cost(const geometry::Pose& base_from_tool, const Attempt& attempt) const;
   Plan attempts_at(const Members& members) const;
   Plan probing(const Members& members, const geometry::Pose* base_from_tool);
   double lead(const geometry::Pose& base_from_tool, const geometry::Pose& base_from_start) const;
@@ -65,7 +76,7 @@ class RatePolicy {
   std::vector<Attempt> attempts_;
   std::vector<support::Bitset> served_;
   int dimensions_;
-  std::unordered_map<support::Hash128, Plan, HashOf> plans_;
+  std::unordered_map<support::Hash128, Plans, HashOf> plans_;
   std::vector<std::pair<std::int32_t, std::size_t>> sorted_;  ///< by the motion in hand: first contact, pose
 };
 

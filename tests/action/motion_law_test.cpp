@@ -242,6 +242,43 @@ TEST(Insertion, EndsSeatedGoingInAlongTheAxisInFineSteps) {
   }
 }
 
+/// Back first, wherever the tool is: beside the seat, before it or past where it goes in.
+TEST(Insertion, FromWhereTheToolIsEndsSeatedToo) {
+  Rng rng(10);
+  const double depth = task().scene().target.approach_depth;
+  int past = 0, in_all = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Pose target = task().scene().prior.sample(rng);
+    const Vector3 axis = target.linear() * task().scene().target.approach_axis;
+    const Pose seated = task().scene().seated(target);
+    const MotionPtr elsewhere = action::insertion(task(), task().scene().prior.sample(rng), task().home());
+    const JointVector q = i % 2 == 0 ? random_free(rng) : elsewhere->path.back();
+    const Pose from = task().base_from_tool(q);
+    const double cost = action::near_insertion_cost(task(), from, seated, axis);
+    EXPECT_GE(cost, (seated.translation() - from.translation()).norm() + 0.05 * geometry::angle_between(from, seated));
+    const MotionPtr motion = action::near_insertion(task(), target, q);
+    if (!motion) continue;
+    ++in_all;
+    ASSERT_NO_FATAL_FAILURE(expect_sound(*motion, task().options().motion.step));
+    EXPECT_EQ(motion->path.front(), q);
+    EXPECT_FALSE(motion->anchored);
+    EXPECT_EQ(motion->kind, Kind::insertion);
+    EXPECT_TRUE(motion->supposed_target.isApprox(target));
+    EXPECT_TRUE(task().scene().is_seated(task().base_from_tool(motion->path.back()), target));
+    EXPECT_NEAR(motion->cost_to.back(), cost, 1e-3);
+    double farthest_back = 0.0;
+    for (const JointVector& at : motion->path) {
+      const Vector3 moved = task().base_from_tool(at).translation() - from.translation();
+      farthest_back = std::max(farthest_back, -axis.dot(moved));
+    }
+    const double is_past = axis.dot(from.translation() - seated.translation()) + depth;
+    EXPECT_NEAR(farthest_back, std::max(0.01, is_past), 1e-3);
+    past += is_past > 0.01;
+  }
+  EXPECT_GT(in_all, 20);
+  EXPECT_GT(past, 2);
+}
+
 TEST(Motion, TheFirstWaypointsOfAMotionCostWhatTheyDid) {
   const MotionPtr whole = action::probes(task(), task().frame().region, task().home()).front();
   const MotionPtr part = action::truncated(task(), *whole, 5);

@@ -60,9 +60,9 @@ struct Setting {
     return {on, predictions, action::probes(*on, on->frame().region, on->home(), 3), attempts, served, dimensions};
   }
   double straight(const Pose& base_from_tool, std::size_t member) const {
-    const Pose& start = attempts[member].base_from_start;
-    return task()->options().cost.action + (start.translation() - base_from_tool.translation()).norm() +
-           0.05 * geometry::angle_between(start, base_from_tool) + attempts[member].cost;
+    const Pose& seated = attempts[member].base_from_seated;
+    return task()->options().cost.action + (seated.translation() - base_from_tool.translation()).norm() +
+           0.05 * geometry::angle_between(seated, base_from_tool);
   }
 
   std::shared_ptr<const action::Task> on;

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "action/insertion.hpp"
 #include "solver/policy_setting.hpp"
 #include "solver/pose_problem.hpp"
 #include "solver/search.hpp"
@@ -19,17 +20,16 @@ using solver::SecondValue;
 using solver::ValueType;
 using support::Deadline;
 
-TEST(RatePolicy, OfOnePoseIsTheWayToTheAttemptAndTheAttempt) {
+TEST(RatePolicy, OfOnePoseIsTheCheaperWayToASeat) {
   Rng rng(1);
   Setting setting(20, rng);
   RatePolicy policy = setting.policy();
   for (std::size_t member = 0; member < 20; ++member) {
     const Pose at = random_place(rng);
     const Attempt& attempt = setting.attempts[member];
-    EXPECT_NEAR(
-        policy.cost({member}, at),
-        task()->options().cost.action + action::transit_cost(*task(), at, attempt.base_from_start) + attempt.cost,
-        1e-12);
+    const double over_plane = action::transit_cost(*task(), at, attempt.base_from_start) + attempt.cost;
+    const double near = action::near_insertion_cost(*task(), at, attempt.base_from_seated, attempt.axis());
+    EXPECT_NEAR(policy.cost({member}, at), task()->options().cost.action + std::min(over_plane, near), 1e-12);
   }
 }
 
