@@ -13,11 +13,11 @@ MotionPtr finished(const Task& task, Motion motion) {
   motion.cost_to.assign(1, 0.0);
   const CostWeights& weights = task.options().cost;
   for (std::size_t i = 1; i < motion.path.size(); ++i) {
-    const Pose &from = task.base_from_tool(motion.path[i - 1]), to = task.base_from_tool(motion.path[i]);
+    const Pose &from = motion.bodies.base_from_body(i - 1, 0), &to = motion.bodies.base_from_body(i, 0);
     motion.cost_to.push_back(motion.cost_to.back() + weights.metre * (to.translation() - from.translation()).norm() +
                              weights.radian * geometry::angle_between(from, to));
   }
-  motion.base_from_start = task.base_from_tool(motion.path.front());
+  motion.base_from_start = motion.bodies.base_from_body(0, 0);
   return std::make_shared<const Motion>(std::move(motion));
 }
 

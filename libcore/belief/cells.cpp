@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t first_round = 16;     // of cells that are looked into; each next round is twice as long
 constexpr std::size_t lot = 200;            // of cells that stand for all
 constexpr std::size_t parts_per_cell = 10;  // that are kept of cells looked into, for each there is room for else
+constexpr double latest_draw = 0.4;         // of the time there is, after which parts are no longer split
 constexpr std::size_t stride = 61;          // between cells that are looked into one after another
 
 /// The indices below `count` in long steps.
@@ -240,7 +241,7 @@ std::vector<Cell> CellBelief::thinned(const std::vector<Cell>& cells, std::size_
 std::vector<Cell> CellBelief::draw_parts(const Task& task, const std::vector<Trace>& history, std::size_t count,
                                          double wanted, support::Rng& rng, const support::Deadline& deadline) const {
   std::vector<Cell> parts = by_lot(count, rng);
-  while (any_coarser(parts, wanted) && deadline.used_fraction() < 0.5) {
+  while (any_coarser(parts, wanted) && deadline.used_fraction() < latest_draw) {
     parts = halves_of_coarsest(task, history, parts, parts.size(), wanted);
     if (parts.size() > 2 * count) parts = thinned(parts, count, rng);
   }

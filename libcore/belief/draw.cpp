@@ -9,6 +9,7 @@ namespace {
 
 using geometry::Vector3;
 
+constexpr double latest = 0.4;                // of the time there is: it is planning that needs the rest
 constexpr std::size_t least_trial = 24;       // projections after which it is asked whether they pay:
 constexpr std::size_t pays_from = 3;          // one in so many misses the history by no more than `finest_part`
 constexpr double least_near = 0.001;          // m by which a pose may miss the history and serve for planning
@@ -114,7 +115,7 @@ class Draw {
 
  private:
   std::size_t size() const { return close_.size() + near_poses_.size(); }
-  bool lacks(std::size_t wanted) const { return size() < wanted && deadline_.used_fraction() < 0.5; }
+  bool lacks(std::size_t wanted) const { return size() < wanted && deadline_.used_fraction() < latest; }
 
   void add(const Drawn& found) { (found.miss <= finest_part ? close_ : near_poses_).push_back(found); }
   void add_projected(const PoseVector& from) {
@@ -134,6 +135,11 @@ class Draw {
     return true;
   }
 
+  void add_anywhere_in(const Cell& cell) {
+    const Pose pose = geometry::pose_from(cells_.draw_in(cell, rng_));
+    if (!was_missed(belief_.task(), belief_.history(), pose)) near_poses_.push_back({pose, cells_.radius(cell)});
+  }
+
   void from_cells() {
     const std::size_t before = close_.size();
     std::size_t tried = 0;
@@ -143,14 +149,17 @@ class Draw {
     }
   }
 
-  /// Of parts that may have given the history to a quarter of a millimetre, as many by lot as are wanted.
+  /// Of parts that may have given the history to a quarter of a millimetre, as many by lot as are wanted. Where there
+  /// was no time for parts as fine, anywhere in them.
   void from_fine_parts() {
     std::vector<Cell> parts =
         cells_.draw_parts(belief_.task(), belief_.history(), lots_per_pose * count_, finest_part, rng_, deadline_);
-    std::erase_if(parts, [&](const Cell& part) { return cells_.radius(part) > fine_radius; });
-    for (std::size_t i = 0; i < parts.size() && lacks(count_); ++i) {
+    for (std::size_t i = 0; i < parts.size() && size() < count_; ++i) {
       std::swap(parts[i], parts[i + rng_.below(parts.size() - i)]);
-      add_from(parts[i]);
+      if (cells_.radius(parts[i]) <= fine_radius || lacks(count_))
+        add_from(parts[i]);
+      else
+        add_anywhere_in(parts[i]);
     }
   }
 
@@ -253,7 +262,7 @@ std::vector<Drawn> Belief::draw_feasible(std::size_t count, support::Rng& rng, c
                                          const support::Deadline& deadline) const {
   std::vector<Drawn> poses;
   const double radius = model_->voxels->grid.half_diagonal();
-  const auto lacks = [&](std::size_t wanted) { return poses.size() < wanted && deadline.used_fraction() < 0.5; };
+  const auto lacks = [&](std::size_t wanted) { return poses.size() < wanted && deadline.used_fraction() < latest; };
   for (std::size_t i = 0; i < known.size() && lacks(count - count / least_share); ++i)
     if (const auto still = brought_back(task(), history_, known[i], least_near)) poses.push_back(*still);
   std::size_t tried = 0;

@@ -82,7 +82,7 @@ struct BeliefDescription {
   Resolution cell{0.004, 0.06};       ///< of those cells at first
   int max_cells = 20000;
   int particles = 200;                    ///< poses drawn for planning
-  int threads = 1;                        ///< that take in an observation; 0: as many as the machine has
+  int threads = 1;                        ///< that take in an observation, and more; 0: as many as the machine has
   std::string likelihood = "calibrated";  ///< of a contact on voxels; or "paper"
 };
 

@@ -48,7 +48,7 @@ Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOption
       options_(options),
       library_(std::make_shared<action::ActionLibrary>(*model_->task)),
       rng_(support::mix(options.seed ^ own_stream)),
-      sample_(std::isinf(options.budget_seconds) ? search_sample : 1.0) {
+      sample_(std::isinf(options.budget_seconds) ? search_sample : least_sample) {
   check(options_);
   if (is_bounded()) PoseProblem::prepare(*model_->task, *library_);
 }
@@ -166,7 +166,8 @@ void Planner::predict(const belief::Belief& belief) {
   std::vector<double> misses;
   for (const belief::Drawn& drawn : poses_) misses.push_back(drawn.miss);
   const double blur = belief::stop_blur(*model_->task, belief.sensing());
-  auto predictions = std::make_shared<Predictions>(model_->task, belief::poses_of(poses_), blur, std::move(misses));
+  auto predictions = std::make_shared<Predictions>(model_->task, belief::poses_of(poses_), blur, std::move(misses),
+                                                   model_->options.cells.threads);
   if (predictions_) predictions->take_over(*predictions_);
   predictions_ = std::move(predictions);
 }

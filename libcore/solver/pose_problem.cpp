@@ -20,7 +20,8 @@ using support::Bitset;
 
 namespace {
 
-constexpr int lines_per_side = 9;
+constexpr int lines_per_side = 9;             // as long as nothing was met, and for solvers without an upper bound;
+constexpr int lines_once_met = 5;             // for then most is told by what is near by
 constexpr std::size_t going_on = 6;           // waypoints of a sweep after the last pose that it touches
 constexpr std::size_t inner_candidates = 2;   // insertion attempts considered below the start
 constexpr std::size_t most_anchored = 24;     // motions that a policy's cost is worked out after
@@ -228,7 +229,8 @@ bool PoseProblem::leads_nowhere(const Motion& motion) const {
 
 const std::vector<MotionPtr>& PoseProblem::anchored(const JointVector& near) {
   if (!anchored_made_) {
-    anchored_ = library_->probes_in(region_, near, lines_per_side);
+    const bool are_few = second_ == SecondValue::upper_bound && !nothing_met_;
+    anchored_ = library_->probes_in(region_, near, are_few ? lines_once_met : lines_per_side);
     for (MotionPtr& motion : anchored_)
       if (motion->kind == action::Kind::sweep) motion = ending_with_contacts(motion);
   }

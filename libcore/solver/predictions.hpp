@@ -21,7 +21,7 @@ struct Group {
 /// does not seem to say all there is to know.
 std::size_t least_group(std::size_t count, int dimensions);
 
-/// Where each of a planning call's poses is first touched on each motion, computed once. One thread.
+/// Where each of a planning call's poses is first touched on each motion, computed once. To be asked by one thread.
 class Predictions {
  public:
   /// `blur`: m before a reported stop within which the contact may lie. `misses`: m by which each pose may be off; the
@@ -31,8 +31,10 @@ class Predictions {
   /// A small motion grazes a target into which it does not go by half the blur, and to which it comes as near as the
   /// blur: one that goes along what the robot has just touched, mostly. Whether that ends in a contact says nothing of
   /// use about where the target is.
+  ///
+  /// `threads` that look at the poses of a motion, as in `support::for_ranges`; the answers are the same.
   Predictions(std::shared_ptr<const action::Task> task, std::vector<geometry::Pose> poses, double blur = 0.0,
-              std::vector<double> misses = {});
+              std::vector<double> misses = {}, int threads = 1);
 
   const std::vector<geometry::Pose>& poses() const { return poses_; }
 
@@ -73,16 +75,19 @@ class Predictions {
   };
 
   Row& row(const action::MotionPtr& motion);
+  void look_at(Row& row, const support::Bitset& poses) const;
+  std::size_t first_contact(Row& row, std::size_t pose) const;
+  std::size_t first_near(Row& row, std::size_t pose) const;
   std::uint64_t key_of(std::size_t pose) const;
   bool may_graze(const action::MotionPtr& motion) const { return blur_ > 0.0 && !motion->anchored; }
-  std::size_t grazed(const action::MotionPtr& motion, std::size_t pose);
-  std::size_t first_near(const action::MotionPtr& motion, std::size_t pose);
-  bool are_mostly_near(const action::MotionPtr& motion, const std::vector<std::size_t>& poses, std::size_t waypoint);
+  std::size_t grazed(Row& row, std::size_t pose) const;
+  bool are_mostly_near(Row& row, const std::vector<std::size_t>& poses, std::size_t waypoint) const;
 
   std::shared_ptr<const action::Task> task_;
   std::vector<geometry::Pose> poses_;
   std::vector<double> misses_;  ///< by pose
   double blur_;
+  int threads_;
   std::unordered_map<const action::Motion*, Row> rows_;
 };
 

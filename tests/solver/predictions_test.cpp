@@ -147,6 +147,29 @@ TEST(Predictions, AreTheSameWithWhatIsTakenOverFromAnEarlierCall) {
   }
 }
 
+TEST(Predictions, AreTheSameWhateverTheNumberOfThreads) {
+  Rng rng(13);
+  action::ActionLibrary library(*task());
+  for (int round = 0; round < 4; ++round) {
+    Predictions one = random_predictions(rng, 0.001);
+    Predictions three(task(), one.poses(), 0.001, {}, 3);
+    for (int i = 0; i < 8; ++i) {
+      const bool is_anchored = i % 2 == 0;
+      const action::MotionPtr motion =
+          motion_of(random_action(*task(), library, task()->scene().start, rng), is_anchored);
+      const Bitset members = random_members(rng);
+      const std::vector<Group> groups = one.split(motion, members, 3), others = three.split(motion, members, 3);
+      ASSERT_EQ(groups.size(), others.size());
+      for (std::size_t g = 0; g < groups.size(); ++g) {
+        EXPECT_EQ(groups[g].poses, others[g].poses);
+        EXPECT_EQ(groups[g].expected, others[g].expected);
+      }
+      EXPECT_EQ(one.first_contacts(motion), three.first_contacts(motion));
+      EXPECT_EQ(one.first_nears(motion), three.first_nears(motion));
+    }
+  }
+}
+
 TEST(Predictions, OfHowAMotionBeginsAreThoseOfTheWhole) {
   Rng rng(7);
   action::ActionLibrary library(*task());
