@@ -188,6 +188,31 @@ TEST(Drawn, WhatAgreesWithWhatWasFeltSinceStaysAsItIs) {
   }
 }
 
+/// Of the belief's cells, and mostly such as no motion that met nothing would have met.
+TEST(Drawn, AreThereThoughThereIsNoTime) {
+  constexpr std::size_t wanted = 30;
+  Rng rng(6);
+  std::size_t drawn = 0, ruled_out = 0, asked = 0;
+  for (const std::uint64_t seed : {51u, 52u, 53u, 54u}) {
+    Episode episode(model(Kind::particles), seed);
+    for (int i = 0; i < 6; ++i) {
+      episode.step();
+      const support::Deadline over(1e-9, UINT64_MAX);
+      const std::vector<belief::Drawn> poses = episode.belief.draw(wanted, rng, {}, over);
+      ++asked;
+      drawn += poses.size();
+      for (const belief::Drawn& one : poses) {
+        EXPECT_TRUE(one.miss == 0.0 || episode.belief.contains(one.pose));
+        ruled_out += std::any_of(
+            episode.belief.history().begin(), episode.belief.history().end(),
+            [&](const Trace& trace) { return !trace.contact && !belief::reproduces(task(), trace, one.pose); });
+      }
+    }
+  }
+  EXPECT_GT(drawn, asked * wanted * 2 / 3);
+  EXPECT_LT(ruled_out, drawn / 5);
+}
+
 TEST(Feasible, PosesAreDrawnNearTheTruthToo) {
   Rng rng(4);
   int episodes = 0;
