@@ -154,7 +154,7 @@ class Draw {
   void from_fine_parts() {
     std::vector<Cell> parts =
         cells_.draw_parts(belief_.task(), belief_.history(), lots_per_pose * count_, finest_part, rng_, deadline_);
-    for (std::size_t i = 0; i < parts.size() && size() < count_; ++i) {
+    for (std::size_t i = 0; i < parts.size() && size() < count_ && (i < count_ || lacks(count_)); ++i) {
       std::swap(parts[i], parts[i + rng_.below(parts.size() - i)]);
       if (cells_.radius(parts[i]) <= fine_radius || lacks(count_))
         add_from(parts[i]);

@@ -23,7 +23,8 @@ constexpr double farther = 6.0;           // times as far, each time that this w
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
 constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then;
-constexpr double least_sample = 0.5;      // and so many at least
+constexpr double least_sample = 0.5;      // and so many at least;
+constexpr double least_after = 0.2;       // then so many, each of which takes its time where the robot is all but in
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
 bool has_met_something(const std::vector<belief::Trace>& history) {
@@ -219,7 +220,8 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
 void Planner::fit_sample(double& times, double most, double used) const {
   constexpr double aim = 0.7, at_least = 0.4, at_most = 1.6;
   if (std::isinf(options_.budget_seconds)) return;
-  times = std::clamp(times * std::clamp(aim / used, at_least, at_most), least_sample, most);
+  const double least = most > 1.0 ? least_sample : least_after;
+  times = std::clamp(times * std::clamp(aim / used, at_least, at_most), least, most);
 }
 
 /// Notes what there is to follow.
@@ -247,6 +249,13 @@ bool Planner::is_known(const action::Motion& motion) const {
   return std::any_of(standing_.met.begin(), standing_.met.end(), [&](const motion::JointPath& met) {
     return met.size() <= motion.path.size() && std::equal(met.begin(), met.end(), motion.path.begin());
   });
+}
+
+/// Whether it is a second small motion in a row that is not to tell anything: what a search finds behind one it found
+/// because it looked there, and would find from here too.
+bool Planner::is_idle(const Choice& choice) const {
+  return standing_.idle > 0 && !choice.motion->anchored && choice.information() <= noticeable_bits &&
+         choice.goal_probability() <= 0.0;
 }
 
 bool Planner::is_unpromising(const action::Motion& motion) const {
@@ -303,10 +312,11 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   const motion::JointPath way_back = way_off(belief);
   const std::vector<Touch> touches = touched_in_vain(belief);
   const bool does_not_err = belief.sensing().missed_contacts == 0.0 && belief.sensing().false_contacts == 0.0;
+  const bool feels = has_met_something(belief.history());
   std::vector<std::size_t> held_back;
   for (std::size_t i = 0; i < choices.size(); ++i)
-    if (is_unpromising(*choices[i].motion) || (does_not_err && is_known(*choices[i].motion)) ||
-        share_alike(choices[i], touches) > certain)
+    if (is_unpromising(*choices[i].motion) || (feels && is_idle(choices[i])) ||
+        (does_not_err && is_known(*choices[i].motion)) || share_alike(choices[i], touches) > certain)
       held_back.push_back(i), ban(i, Verdict::set_aside);
   const auto best = [&] {
     const auto rule = greedy_of(options_.solver);

@@ -60,6 +60,7 @@ class Planner {
   const Choice& chosen() const;
   motion::JointPath way_off(const belief::Belief& belief) const;
   bool is_known(const action::Motion& motion) const;
+  bool is_idle(const Choice& choice) const;
   bool is_unpromising(const action::Motion& motion) const;
   std::vector<Touch> touched_in_vain(const belief::Belief& belief) const;
   void predict(const belief::Belief& belief);

@@ -24,6 +24,7 @@ constexpr int lines_per_side = 9;             // as long as nothing was met, and
 constexpr int lines_once_met = 5;             // for then most is told by what is near by
 constexpr std::size_t going_on = 6;           // waypoints of a sweep after the last pose that it touches
 constexpr std::size_t inner_candidates = 2;   // insertion attempts considered below the start
+constexpr std::size_t both_ways = 2;          // attempts that are considered from where the tool is and by the plane
 constexpr std::size_t most_anchored = 24;     // motions that a policy's cost is worked out after
 constexpr std::size_t weighed_carefully = 8;  // choices
 constexpr std::size_t least_walked = 12;      // poses for which a walk is weighed
@@ -268,9 +269,9 @@ void PoseProblem::find_neighbours() {
     }
 }
 
-/// Attempts at the seats that have the most others near by, each for a different group of poses; at each from where the
-/// tool is as well, if `nears`. Where several seats of a pose are as good the nearest counts, and the others if the arm
-/// can't get there.
+/// Attempts at the seats that have the most others near by, each for a different group of poses; if `nears`, from where
+/// the tool is, and by the retreat plane at the first few, or where it can't get there else. Where several seats of a
+/// pose are as good the nearest counts, and the others if the arm can't get there.
 std::vector<MotionPtr> PoseProblem::insertions(const Bitset& members, const JointVector& q, std::size_t most,
                                                bool nears) {
   const std::vector<std::size_t> order = seats_of(members, q);
@@ -289,9 +290,9 @@ std::vector<MotionPtr> PoseProblem::insertions(const Bitset& members, const Join
     Bitset served = neighbours_[best];
     served &= left;
     left.and_not(served);
-    const MotionPtr motion = insertion_at(best, q);
     const Pose& pose = predictions_->poses()[best / seats()];
     const MotionPtr near = nears ? action::near_insertion(*task_, pose, q, best % seats()) : nullptr;
+    const MotionPtr motion = !near || groups < both_ways ? insertion_at(best, q) : nullptr;
     if (!motion && !near) continue;
     ++groups;
     for (const MotionPtr& attempt : {near, motion})

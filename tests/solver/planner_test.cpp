@@ -89,6 +89,27 @@ TEST(Query, GivesTheSameActionsForTheSameSeedAndExpansions) {
   }
 }
 
+TEST(Query, GivesTheSameActionsWhateverTheNumberOfThreads) {
+  for (const Kind kind : {Kind::hierarchical, Kind::particles})
+    for (const Solver solver : {Solver::rtdp_bel, Solver::brtdp_bel, Solver::rate}) {
+      belief::Options options = model(kind)->options;
+      options.cells.threads = 3;
+      const auto by_three = std::make_shared<const belief::Model>(task(), options);
+      Rng rng(17);
+      const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+      Belief one(model(kind), task()->scene().start), three(by_three, task()->scene().start);
+      Planner planner_of_one(model(kind), within(3, solver)), planner_of_three(by_three, within(3, solver));
+      for (int i = 0; i < 6; ++i) {
+        const Answer answer = planner_of_one.query(one), other = planner_of_three.query(three);
+        ASSERT_EQ(answer.kind, other.kind);
+        if (!answer.action) break;
+        ASSERT_EQ(answer.action->id, other.action->id) << solver::name_of(solver) << ", action " << i;
+        one.step(*answer.action, world.execute(*answer.action));
+        three.step(*other.action, world.execute(*other.action));
+      }
+    }
+}
+
 TEST(Query, SaysSoAtTheGoal) {
   const Pose truth = task()->scene().prior.central_pose();
   const PlainWorld world(*task(), truth);

@@ -187,6 +187,39 @@ TEST(Contradicted, HasTheRobotGoBackFarther) {
   EXPECT_GT(farther, 0);
 }
 
+bool is_small_and_tells_nothing(const solver::Choice& choice) {
+  return !choice.motion->anchored && choice.information() <= 0.1 && choice.goal_probability() == 0.0;
+}
+
+/// One small motion to get to another place; not a second one, as long as there is anything else to do.
+TEST(Bounded, MakesNoTwoSmallMotionsInARowThatAreToTellNothing) {
+  int asked = 0;
+  for (std::uint64_t seed = 60; seed < 72; ++seed) {
+    Rng rng(seed);
+    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(8, Solver::brtdp_bel));
+    ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
+    double bits = 1e300;
+    bool was_idle = false;
+    for (int i = 0; i < 10; ++i) {
+      const double now = std::log2(belief.cells().weight());
+      const bool shrank = now < bits - 0.1;
+      if (shrank) bits = now;
+      const Answer answer = planner.query(belief);
+      if (!answer.action) break;
+      const bool is_idle = is_small_and_tells_nothing(chosen_by(planner));
+      if (was_idle && !shrank) {
+        ++asked;
+        EXPECT_FALSE(is_idle) << "seed " << seed << ", action " << i;
+      }
+      was_idle = is_idle;
+      belief.step(*answer.action, world.execute(*answer.action));
+    }
+  }
+  EXPECT_GT(asked, 2);
+}
+
 /// What was met without avail is not sought again.
 TEST(Stuck, SeeksNoContactLikeTheLastThatToldNothing) {
   int asked = 0;
