@@ -23,8 +23,7 @@ constexpr double farther = 6.0;           // times as far, each time that this w
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
 constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then;
-constexpr double least_sample = 0.5;      // and so many at least;
-constexpr double least_after = 0.2;       // then so many, each of which takes its time where the robot is all but in
+constexpr double least_sample = 0.5;      // and so many at least
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
 bool has_met_something(const std::vector<belief::Trace>& history) {
@@ -49,7 +48,7 @@ Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOption
       options_(options),
       library_(std::make_shared<action::ActionLibrary>(*model_->task)),
       rng_(support::mix(options.seed ^ own_stream)),
-      sample_(std::isinf(options.budget_seconds) ? search_sample : least_sample) {
+      sample_(std::isinf(options.budget_seconds) ? search_sample : 1.0) {
   check(options_);
   if (is_bounded()) PoseProblem::prepare(*model_->task, *library_);
 }
@@ -220,8 +219,7 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
 void Planner::fit_sample(double& times, double most, double used) const {
   constexpr double aim = 0.7, at_least = 0.4, at_most = 1.6;
   if (std::isinf(options_.budget_seconds)) return;
-  const double least = most > 1.0 ? least_sample : least_after;
-  times = std::clamp(times * std::clamp(aim / used, at_least, at_most), least, most);
+  times = std::clamp(times * std::clamp(aim / used, at_least, at_most), least_sample, most);
 }
 
 /// Notes what there is to follow.
