@@ -124,6 +124,8 @@ void Planner::note_fruitless(const belief::Belief& belief) {
         path.begin(), path.begin() + static_cast<std::ptrdiff_t>(std::min(history.back().outcome + 1, path.size())));
   }
   if (is_handed_out) note_halt(history.back());
+  if (is_handed_out && chosen().motion->kind == action::Kind::insertion && !history.back().contact)
+    standing_.gone_in.push_back(model_->task->base_from_tool(belief.configuration()));
   if (shrank) standing_.bits = bits;
   standing_.q = belief.configuration();
   standing_.size = size;
@@ -256,6 +258,18 @@ bool Planner::is_idle(const Choice& choice) const {
          choice.goal_probability() <= 0.0;
 }
 
+/// Whether it is an attempt all but where one met nothing and did not reach the goal: that would come of it again.
+bool Planner::is_made_already(const action::Motion& motion) const {
+  constexpr double nearly = 0.5;  // of the tolerances
+  if (motion.kind != action::Kind::insertion || standing_.gone_in.empty()) return false;
+  const scene::Target& target = model_->task->scene().target;
+  const geometry::Pose end = model_->task->base_from_tool(motion.path.back());
+  return std::any_of(standing_.gone_in.begin(), standing_.gone_in.end(), [&](const geometry::Pose& earlier) {
+    return (end.translation() - earlier.translation()).norm() < nearly * target.position_tolerance &&
+           geometry::angle_between(end, earlier) < nearly * target.angle_tolerance;
+  });
+}
+
 bool Planner::is_unpromising(const action::Motion& motion) const {
   return (stage() != Stage::all && !motion.anchored) ||
          (stage() == Stage::probes && motion.kind == action::Kind::insertion);
@@ -314,7 +328,8 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   std::vector<std::size_t> held_back;
   for (std::size_t i = 0; i < choices.size(); ++i)
     if (is_unpromising(*choices[i].motion) || (feels && is_idle(choices[i])) ||
-        (does_not_err && is_known(*choices[i].motion)) || share_alike(choices[i], touches) > certain)
+        (does_not_err && (is_known(*choices[i].motion) || is_made_already(*choices[i].motion))) ||
+        share_alike(choices[i], touches) > certain)
       held_back.push_back(i), ban(i, Verdict::set_aside);
   const auto best = [&] {
     const auto rule = greedy_of(options_.solver);

@@ -61,6 +61,7 @@ class Planner {
   motion::JointPath way_off(const belief::Belief& belief) const;
   bool is_known(const action::Motion& motion) const;
   bool is_idle(const Choice& choice) const;
+  bool is_made_already(const action::Motion& motion) const;
   bool is_unpromising(const action::Motion& motion) const;
   std::vector<Touch> touched_in_vain(const belief::Belief& belief) const;
   void predict(const belief::Belief& belief);
@@ -76,10 +77,10 @@ class Planner {
   std::shared_ptr<action::ActionLibrary> library_;
   support::Rng rng_;
   /// An action that left the belief and the configuration as they were is not handed out again until something changes;
-  /// nor, while the belief hardly shrinks, one that is all but certain to meet what was met without avail (`alike`);
-  /// and after some queries in which the belief hardly shrank only probes are, then attempts too, then all again: the
-  /// poses planned on promise more of small touches than the cells can take in. Begins anew with a belief that has been
-  /// through something else.
+  /// nor, while the belief hardly shrinks, one that is all but certain to meet what was met without avail (`alike`),
+  /// nor an attempt all but where one met nothing and was not the last; and after some queries in which the belief
+  /// hardly shrank only probes are, then attempts too, then all again: the poses planned on promise more of small
+  /// touches than the cells can take in. Begins anew with a belief that has been through something else.
   void note_fruitless(const belief::Belief& belief);
   void note_halt(const belief::Trace& last);
 
@@ -89,11 +90,12 @@ class Planner {
     robot::JointVector q;  ///< empty before the first query
     std::size_t size = 0;  ///< cells or voxels
     std::vector<std::uint64_t> fruitless;
-    std::vector<motion::JointPath> met;  ///< of small motions that met something, up to there
-    double bits = 0.0;                   ///< when the belief last shrank noticeably
-    int stalls = 0;                      ///< queries since then
-    int idle = 0;                        ///< queries since then whose action was not to tell anything
-    int halts = 0;                       ///< in a row, before an action's motion proper had begun
+    std::vector<motion::JointPath> met;   ///< of small motions that met something, up to there
+    std::vector<geometry::Pose> gone_in;  ///< ends of attempts that met nothing, of the tool in the base frame
+    double bits = 0.0;                    ///< when the belief last shrank noticeably
+    int stalls = 0;                       ///< queries since then
+    int idle = 0;                         ///< queries since then whose action was not to tell anything
+    int halts = 0;                        ///< in a row, before an action's motion proper had begun
   };
   Standing standing_;
   double sample_;                             ///< times as many poses as long as nothing was met

@@ -220,6 +220,36 @@ TEST(Bounded, MakesNoTwoSmallMotionsInARowThatAreToTellNothing) {
   EXPECT_GT(asked, 2);
 }
 
+/// An attempt may meet nothing and not be the last, where the target may be deeper than it was supposed.
+TEST(Stuck, MakesNoSecondAttemptWhereOneMetNothing) {
+  const auto deep = small_task({.roll_width = 0.02, .position_width = 0.002, .depth_width = 0.03});
+  const auto in_depth = std::make_shared<const belief::Model>(deep, model(Kind::particles)->options);
+  const scene::Target& target = deep->scene().target;
+  int asked = 0;
+  for (std::uint64_t seed = 80; seed < 86; ++seed) {
+    Belief belief(in_depth, deep->scene().start);
+    Planner planner(in_depth,
+                    {.solver = Solver::rate, .budget_seconds = infinity, .budget_expansions = 3, .seed = seed});
+    std::vector<Pose> gone_in;
+    for (int i = 0; i < 8 && belief.health() == belief::Health::good; ++i) {
+      const Answer answer = planner.query(belief);
+      if (!answer.action) break;
+      const JointVector end = answer.action->path.back();
+      belief.step(*answer.action, {false, end});
+      if (answer.action->kind != action::Kind::insertion) continue;
+      const Pose seated = deep->base_from_tool(end);
+      for (const Pose& earlier : gone_in) {
+        ++asked;
+        EXPECT_FALSE((seated.translation() - earlier.translation()).norm() < 0.5 * target.position_tolerance &&
+                     geometry::angle_between(seated, earlier) < 0.5 * target.angle_tolerance)
+            << "seed " << seed << ", action " << i;
+      }
+      gone_in.push_back(seated);
+    }
+  }
+  EXPECT_GT(asked, 5);
+}
+
 /// What was met without avail is not sought again.
 TEST(Stuck, SeeksNoContactLikeTheLastThatToldNothing) {
   int asked = 0;
