@@ -141,12 +141,13 @@ def test_the_table_has_a_row_for_each_setting_with_results(in_one_go, tmp_path, 
     monkeypatch.setattr(study, "STUDY", tmp_path)
     shutil.copy(in_one_go, tmp_path / "base_4d.json")
     document = json.loads(in_one_go.read_text())
+    inserted = sum(trial["inserted"] for trial in document["trials"])
     document["trials"] = [{**document["trials"][0], "cost_m": cost, "inserted": cost < 2} for cost in (1.0, 1.5, 6.5)]
     (tmp_path / "shelf_3d.json").write_text(json.dumps(document))
     study.write_table(tmp_path / "table.md")
     shelf, base = [line for line in (tmp_path / "table.md").read_text().splitlines() if line.startswith(("| shelf_3d", "| base_4d", "| sim_5d"))]
     assert shelf.startswith("| shelf_3d | 3 | 2 (66.7 %) | 3 (100.0 %) | 3.00 | 1.50 | 6.50 | 3.0 | ")
-    assert base.startswith(f"| base_4d | {TRIALS} | 0 (0.0 %) |")
+    assert base.startswith(f"| base_4d | {TRIALS} | {inserted} ({100.0 * inserted / TRIALS:.1f} %) |")
 
 
 def test_the_study_runs_scenarios_that_are_there():
