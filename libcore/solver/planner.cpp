@@ -263,7 +263,7 @@ bool Planner::is_made_already(const action::Motion& motion) const {
   constexpr double nearly = 0.5;  // of the tolerances
   if (motion.kind != action::Kind::insertion || standing_.gone_in.empty()) return false;
   const scene::Target& target = model_->task->scene().target;
-  const geometry::Pose end = model_->task->base_from_tool(motion.path.back());
+  const geometry::Pose& end = motion.bodies.base_from_body(motion.path.size() - 1, 0);
   return std::any_of(standing_.gone_in.begin(), standing_.gone_in.end(), [&](const geometry::Pose& earlier) {
     return (end.translation() - earlier.translation()).norm() < nearly * target.position_tolerance &&
            geometry::angle_between(end, earlier) < nearly * target.angle_tolerance;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "action/insertion.hpp"
 #include "action/near_pokes.hpp"
@@ -63,7 +62,7 @@ class PoseState : public BeliefState {
     for (const MotionPtr& motion : problem_->library_->primitives_at(q_))
       if (!at_start_ || !problem_->leads_nowhere(*motion)) consider(motion);
     if (at_start_ && !problem_->nothing_met_)
-      for (const MotionPtr& motion : action::near_pokes(*problem_->task_, q_)) consider(motion);
+      for (const MotionPtr& motion : problem_->near_pokes(q_)) consider(motion);
     const bool nears = !at_start_ || !problem_->nothing_met_;
     for (const MotionPtr& motion : problem_->insertions(members_, q_, attempts, nears)) consider(motion);
     for (const MotionPtr& motion : anchored()) consider(motion);
@@ -258,6 +257,18 @@ MotionPtr PoseProblem::insertion_at(std::size_t seat, const JointVector& near) {
   return entry->second;
 }
 
+MotionPtr PoseProblem::near_insertion_at(std::size_t seat, const JointVector& q) {
+  const auto [entry, is_new] = near_insertions_.try_emplace({salt_of(q), seat}, nullptr);
+  if (is_new) entry->second = action::near_insertion(*task_, predictions_->poses()[seat / seats()], q, seat % seats());
+  return entry->second;
+}
+
+/// From where the robot stands at the start, `q`.
+const std::vector<MotionPtr>& PoseProblem::near_pokes(const JointVector& q) {
+  if (!near_pokes_) near_pokes_ = action::near_pokes(*task_, q);
+  return *near_pokes_;
+}
+
 void PoseProblem::find_neighbours() {
   neighbours_.assign(seated_.size(), Bitset(seated_.size()));
   for (std::size_t a = 0; a < seated_.size(); ++a)
@@ -290,8 +301,7 @@ std::vector<MotionPtr> PoseProblem::insertions(const Bitset& members, const Join
     Bitset served = neighbours_[best];
     served &= left;
     left.and_not(served);
-    const Pose& pose = predictions_->poses()[best / seats()];
-    const MotionPtr near = nears ? action::near_insertion(*task_, pose, q, best % seats()) : nullptr;
+    const MotionPtr near = nears ? near_insertion_at(best, q) : nullptr;
     const MotionPtr motion = !near || groups < both_ways ? insertion_at(best, q) : nullptr;
     if (!motion && !near) continue;
     ++groups;

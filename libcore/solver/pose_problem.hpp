@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
+#include <optional>
 #include <unordered_map>
 
 #include "belief/belief.hpp"
@@ -40,6 +42,8 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   void find_neighbours();
   action::MotionPtr ending_with_contacts(const action::MotionPtr& motion);
   action::MotionPtr insertion_at(std::size_t seat, const robot::JointVector& near);
+  action::MotionPtr near_insertion_at(std::size_t seat, const robot::JointVector& q);
+  const std::vector<action::MotionPtr>& near_pokes(const robot::JointVector& q);
   std::vector<action::MotionPtr> insertions(const support::Bitset& members, const robot::JointVector& q,
                                             std::size_t most, bool nears);
   std::vector<std::size_t> seats_of(const support::Bitset& members, const robot::JointVector& q) const;
@@ -68,6 +72,8 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   std::vector<action::MotionPtr> anchored_;
   bool anchored_made_ = false;
   std::unordered_map<std::size_t, action::MotionPtr> insertions_;
+  std::map<std::pair<std::uint64_t, std::size_t>, action::MotionPtr> near_insertions_;  ///< by where from, and seat
+  std::optional<std::vector<action::MotionPtr>> near_pokes_;                            ///< from the start
 };
 
 }  // namespace tactus::solver
