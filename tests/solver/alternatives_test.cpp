@@ -2,45 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
-#include "belief/plain_world.hpp"
-#include "solver/planner.hpp"
+#include "solver/planner_setting.hpp"
 
 /// What a planner says it weighed: laws for every solver, on voxels and on poses, along whole episodes.
 namespace tactus::test {
 namespace {
 
-using belief::Belief;
-using belief::Kind;
 using solver::Alternative;
-using solver::Answer;
-using solver::Planner;
-using solver::Solver;
 using solver::Verdict;
-using support::Rng;
 
-constexpr std::array solvers{Solver::rtdp_bel, Solver::rtdp_inad, Solver::rtdp_ad, Solver::brtdp_bel,
-                             Solver::tbl,      Solver::frontier,  Solver::rate};
-
-const std::shared_ptr<const action::Task>& task() {
-  static const auto made = small_task({.roll_width = 0.2, .position_width = 0.04});
-  return made;
-}
-
-std::shared_ptr<const belief::Model> model(Kind kind) {
-  belief::Options options;
-  options.kind = kind;
-  options.voxel_size = 0.005;
-  options.delta = 1000;
-  options.cells.most = 300;
-  options.particles = 40;
-  return std::make_shared<const belief::Model>(task(), options);
-}
-
-solver::PlannerOptions options(Solver solver) {
-  return {.solver = solver, .budget_seconds = std::numeric_limits<double>::infinity(), .budget_expansions = 8};
-}
+constexpr std::size_t delta = 1000;  // voxels: the hand-over comes on the way
+constexpr std::uint64_t budget = 8;  // expansions
 
 /// Calls `visit(belief, planner, answer, solver)` after every query of an episode with each solver and kind of belief.
 template <typename Visit>
@@ -50,9 +23,9 @@ void for_queries(Visit&& visit) {
     for (const Solver solver : solvers) {
       SCOPED_TRACE(solver::name_of(solver));
       const PlainWorld world(*task(), task()->scene().prior.sample(rng));
-      const auto searched = model(kind);
+      const Model searched = made_model(kind, delta);
       Belief belief(searched, task()->scene().start);
-      Planner planner(searched, options(solver));
+      Planner planner(searched, within(budget, solver));
       for (int i = 0; i < 8; ++i) {
         const Answer answer = planner.query(belief);
         ASSERT_NO_FATAL_FAILURE(visit(belief, planner, answer, solver));
@@ -132,11 +105,11 @@ TEST(Alternatives, BoundsAreInOrderOnPoses) {
 
 TEST(Alternatives, AskedForChangeNothing) {
   Rng rng(6);
-  const auto poses = model(Kind::particles);
+  const Model& poses = model(Kind::particles);
   for (const Solver solver : solvers) {
     const PlainWorld world(*task(), task()->scene().prior.sample(rng));
     Belief belief(poses, task()->scene().start);
-    Planner asked(poses, options(solver)), silent(poses, options(solver));
+    Planner asked(poses, within(budget, solver)), silent(poses, within(budget, solver));
     for (int i = 0; i < 8; ++i) {
       const Answer one = asked.query(belief), other = silent.query(belief);
       ASSERT_EQ(one.kind, other.kind);

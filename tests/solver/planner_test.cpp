@@ -17,8 +17,6 @@ namespace tactus::test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array solvers{Solver::rtdp_bel, Solver::rtdp_inad, Solver::rtdp_ad, Solver::brtdp_bel,
-                             Solver::tbl,      Solver::frontier,  Solver::rate};
 
 std::string refusal(const PlannerOptions& options) {
   try {

@@ -87,10 +87,8 @@ bool has_touched(const Belief& belief) {
 TEST(Bounded, GoesOnUntilItMeetsSomethingAndFeelsAboutThatThen) {
   int looked = 0, felt = 0;
   for (const std::uint64_t seed : {50u, 51u, 52u}) {
-    Rng rng(seed);
-    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
-    Belief belief(model(Kind::particles), task()->scene().start);
-    Planner planner(model(Kind::particles), within(2, Solver::brtdp_bel));
+    Trial trial(seed, within(2, Solver::brtdp_bel));
+    auto& [world, belief, planner] = trial;
     for (int i = 0; i < 6; ++i) {
       const bool is_looking = !has_touched(belief);
       const Answer answer = planner.query(belief);
@@ -127,10 +125,8 @@ TEST(Stuck, GoesBackAsItCameBeforeItSetsOutForAnythingElse) {
   int stuck = 0;
   for (const std::uint64_t seed : {10u, 11u, 12u, 13u, 14u, 15u}) {
     const bool small_motions_are_free = seed > 12;
-    Rng rng(seed);
-    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
-    Belief belief(model(Kind::particles), task()->scene().start);
-    Planner planner(model(Kind::particles), within(6));
+    Trial trial(seed, within(6));
+    auto& [world, belief, planner] = trial;
     ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
     for (int i = 0, halts = 0; i < 14; ++i) {
       const Answer answer = planner.query(belief);
@@ -161,10 +157,8 @@ TEST(Stuck, GoesBackAsItCameBeforeItSetsOutForAnythingElse) {
 TEST(Contradicted, HasTheRobotGoBackFarther) {
   int contradicted = 0, farther = 0;
   for (std::uint64_t seed = 14; seed < 34 && contradicted < 2; ++seed) {
-    Rng rng(seed);
-    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
-    Belief belief(model(Kind::particles), task()->scene().start);
-    Planner planner(model(Kind::particles), within(4));
+    Trial trial(seed, within(4));
+    auto& [world, belief, planner] = trial;
     ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
     EXPECT_EQ(belief.sensing(), action::Sensing{});
     const robot::JointVector stop = belief.history().back().path.back(), free = belief.configuration();
@@ -195,10 +189,8 @@ bool is_small_and_tells_nothing(const solver::Choice& choice) {
 TEST(Bounded, MakesNoTwoSmallMotionsInARowThatAreToTellNothing) {
   int asked = 0;
   for (std::uint64_t seed = 60; seed < 72; ++seed) {
-    Rng rng(seed);
-    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
-    Belief belief(model(Kind::particles), task()->scene().start);
-    Planner planner(model(Kind::particles), within(8, Solver::brtdp_bel));
+    Trial trial(seed, within(8, Solver::brtdp_bel));
+    auto& [world, belief, planner] = trial;
     ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
     double bits = 1e300;
     bool was_idle = false;
@@ -254,10 +246,8 @@ TEST(Stuck, MakesNoSecondAttemptWhereOneMetNothing) {
 TEST(Stuck, SeeksNoContactLikeTheLastThatToldNothing) {
   int asked = 0;
   for (std::uint64_t seed = 15; seed < 31; ++seed) {
-    Rng rng(seed);
-    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
-    Belief belief(model(Kind::particles), task()->scene().start);
-    Planner planner(model(Kind::particles), within(4));
+    Trial trial(seed, within(4));
+    auto& [world, belief, planner] = trial;
     ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
     double bits = std::log2(belief.cells().weight());
     for (int i = 0; i < 8; ++i) {
@@ -306,10 +296,8 @@ TEST(Stuck, TriesEverythingAgainInTurn) {
 TEST(Stuck, DoesNotGoAgainWhereASmallMotionMetSomething) {
   int asked = 0;
   for (std::uint64_t seed = 40; seed < 52; ++seed) {
-    Rng rng(seed);
-    const PlainWorld world(*task(), task()->scene().prior.sample(rng));
-    Belief belief(model(Kind::particles), task()->scene().start);
-    Planner planner(model(Kind::particles), within(3, Solver::rate));
+    Trial trial(seed, within(3, Solver::rate));
+    auto& [world, belief, planner] = trial;
     std::vector<motion::JointPath> met;
     for (int i = 0; i < 14; ++i) {
       const Answer answer = planner.query(belief);
