@@ -159,12 +159,16 @@ bool ActionLibrary::are_inside_limits(const JointPath& path) const {
 
 std::optional<Action> ActionLibrary::realise(const JointVector& q, const Motion& motion,
                                              const support::Deadline& deadline, const JointPath& way_back) const {
+  std::optional<Action> action = motion.anchored ? realise_anchored(q, motion, deadline, way_back)
+                                                 : make_action(task_, motion.kind, motion.path, 0, motion.pace);
+  if (action) action->supposed_target = motion.supposed_target;
+  return action;
+}
+
+std::optional<Action> ActionLibrary::realise_anchored(const JointVector& q, const Motion& motion,
+                                                      const support::Deadline& deadline,
+                                                      const JointPath& way_back) const {
   const MotionOptions& options = task_.options().motion;
-  if (!motion.anchored) {
-    Action action = make_action(task_, motion.kind, motion.path, 0, motion.pace);
-    action.supposed_target = motion.supposed_target;
-    return action;
-  }
   const JointVector& start = motion.path.front();
   JointPath lead = lead_in(way_back.empty() ? JointPath{q} : as_far_as_plane(way_back, start), start, deadline);
   JointPath proper = lead.empty() ? motion.path : shifted(motion.path, lead.back() - start);
@@ -179,9 +183,7 @@ std::optional<Action> ActionLibrary::realise(const JointVector& q, const Motion&
     pace.push_back(segment);
   }
   if (lead.size() == 1) pace.erase(pace.begin());
-  Action action = make_action(task_, motion.kind, joined(lead, proper), lead.size() - 1, pace);
-  action.supposed_target = motion.supposed_target;
-  return action;
+  return make_action(task_, motion.kind, joined(lead, proper), lead.size() - 1, pace);
 }
 
 }  // namespace tactus::action

@@ -52,6 +52,8 @@ class ActionLibrary {
                                 const JointPath& way_back = {}) const;
 
  private:
+  std::optional<Action> realise_anchored(const JointVector& q, const Motion& motion, const support::Deadline& deadline,
+                                         const JointPath& way_back) const;
   JointPath lead_in(JointPath path, const JointVector& start, const support::Deadline& deadline) const;
   JointPath connected(JointPath path, const JointVector& start, const support::Deadline& deadline) const;
   bool are_inside_limits(const JointPath& path) const;

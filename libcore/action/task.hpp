@@ -47,6 +47,8 @@ struct Sensing {
   double encoder_error = 0.0;      ///< m by which the reported joints may put a point of the tool off
   double missed_contacts = 0.0;    ///< share of contacts that are not felt
   double false_contacts = 0.0;     ///< share of motions that are stopped by a contact that was none
+  /// Whether a contact, or none, that it reports may not be true.
+  bool errs() const { return missed_contacts > 0.0 || false_contacts > 0.0; }
   bool operator==(const Sensing&) const = default;
 };
 

@@ -27,8 +27,6 @@ constexpr std::size_t crowded = 5;             // cells for each there is room f
 constexpr double hardly_less = 0.97;           // of the weight, left by an observation that told next to nothing
 constexpr std::uint32_t patience = 3;          // such observations in a row
 
-bool errs(const action::Sensing& sensing) { return sensing.missed_contacts > 0.0 || sensing.false_contacts > 0.0; }
-
 }  // namespace
 
 Model::Model(std::shared_ptr<const Task> t, const Options& o)
@@ -80,7 +78,7 @@ void Belief::step(const Action& action, const Observation& observation) {
 
 /// From the prior.
 void Belief::learn_anew() {
-  if (errs(task().options().sensing)) return weigh();
+  if (task().options().sensing.errs()) return weigh();
   if (model_->options.kind == Kind::hierarchical)
     voxels_.emplace(model_->voxels);
   else
@@ -109,7 +107,7 @@ bool Belief::hand_over() {
 
 /// Takes in what the history has beyond what was weighed.
 void Belief::weigh() {
-  if (!weighed_ && errs(task().options().sensing))
+  if (!weighed_ && task().options().sensing.errs())
     weighed_.emplace(task(), task().options().sensing, model_->options.cells);
   else if (weighed_)
     history_.back() = retraced(task(), history_.back(), weighed_->sensing());

@@ -61,13 +61,18 @@ class CellGrid::Sieve {
   Sieve(CellGrid& grid, const Task& task, const Excludes& excludes) : grid_(grid), task_(task), excludes_(excludes) {}
 
   void sift(Part part) {
-    for (Part& half : decide(std::move(part))) sift(std::move(half));
+    std::vector<Part> open{std::move(part)};
+    while (!open.empty()) {
+      Part next = std::move(open.back());
+      open.pop_back();
+      decide(std::move(next), open);
+    }
   }
 
-  /// Drops a part or leaves it, as a whole; else its halves are still to be decided.
-  std::vector<Part> decide(Part part) {
+  /// Drops a part or leaves it, as a whole; else its halves, which are still to be decided, join `open`.
+  void decide(Part part, std::vector<Part>& open) {
     const Box& box = part.box;
-    if (!grid_.any_in(box)) return {};
+    if (!grid_.any_in(box)) return;
     PoseVector centre, half;
     bool is_cell = true;
     for (int d = 0; d < 6; ++d) {
@@ -77,13 +82,11 @@ class CellGrid::Sieve {
     }
     const double radius = scene::cell_radius(half, grid_.reach_);
     const Pose pose = geometry::pose_from(centre);
-    if ((excludes_ && excludes_(pose, radius)) || !agree(part.claims, pose, radius, is_cell)) {
-      grid_.drop(box);
-      return {};
-    }
-    if (is_cell || (part.claims.empty() && !excludes_)) return {};
+    if ((excludes_ && excludes_(pose, radius)) || !agree(part.claims, pose, radius, is_cell)) return grid_.drop(box);
+    if (is_cell || (part.claims.empty() && !excludes_)) return;
     const auto [low, high] = halves(box, half);
-    return {{low, part.claims}, {high, part.claims}};
+    open.push_back({low, part.claims});
+    open.push_back({high, std::move(part.claims)});
   }
 
  private:
@@ -230,8 +233,7 @@ void CellGrid::sift(const Task& task, Part whole, const Excludes& excludes, int 
   std::vector<Part> parts{std::move(whole)};
   while (!parts.empty() && parts.size() < shared_out) {
     std::vector<Part> halves;
-    for (Part& part : parts)
-      for (Part& half : sieve.decide(std::move(part))) halves.push_back(std::move(half));
+    for (Part& part : parts) sieve.decide(std::move(part), halves);
     parts = std::move(halves);
   }
   const CellGrid before = *this;

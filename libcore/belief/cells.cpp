@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t first_round = 16;     // of cells that are looked into; each next round is twice as long
 constexpr std::size_t lot = 200;            // of cells that stand for all
 constexpr std::size_t parts_per_cell = 10;  // that are kept of cells looked into, for each there is room for else
-constexpr double latest_draw = 0.4;         // of the time there is, after which parts are no longer split
 constexpr std::size_t stride = 61;          // between cells that are looked into one after another
 
 /// The indices below `count` in long steps.

@@ -14,6 +14,9 @@ namespace tactus::belief {
 /// history as far as planning can use.
 inline constexpr double part_radius = 0.0015, fine_radius = 0.0004;
 
+/// Share of a planning call's budget in seconds after which drawing poses ends: planning needs the rest.
+inline constexpr double latest_draw = 0.4;
+
 struct CellOptions {
   double position = 0.004;               ///< initial full width, m
   double angle = 0.06;                   ///< initial full width, rad
@@ -85,8 +88,8 @@ class CellBelief {
 
   /// About `count` parts of cells, each of at most `radius` (m; it may be finer than cells are split), drawn by weight
   /// from all the parts of that size that may have given the history: cells are split, the parts tested, and again and
-  /// again all but `count` of them left out by lot. Empty if none was met. Stops early, with coarser parts, once half
-  /// of a budget in seconds is used up.
+  /// again all but `count` of them left out by lot. Empty if none was met. Stops early, with coarser parts, after
+  /// `latest_draw`.
   std::vector<Cell> draw_parts(const Task& task, const std::vector<Trace>& history, std::size_t count, double radius,
                                support::Rng& rng,
                                const support::Deadline& deadline = support::Deadline::unlimited()) const;

@@ -9,7 +9,6 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr double latest = 0.4;                // of the time there is: it is planning that needs the rest
 constexpr std::size_t least_trial = 24;       // projections after which it is asked whether they pay:
 constexpr std::size_t pays_from = 3;          // one in so many misses the history by no more than `finest_part`
 constexpr double least_near = 0.001;          // m by which a pose may miss the history and serve for planning
@@ -115,7 +114,7 @@ class Draw {
 
  private:
   std::size_t size() const { return close_.size() + near_poses_.size(); }
-  bool lacks(std::size_t wanted) const { return size() < wanted && deadline_.used_fraction() < latest; }
+  bool lacks(std::size_t wanted) const { return size() < wanted && deadline_.used_fraction() < latest_draw; }
 
   void add(const Drawn& found) { (found.miss <= finest_part ? close_ : near_poses_).push_back(found); }
   void add_projected(const PoseVector& from) {
@@ -262,7 +261,9 @@ std::vector<Drawn> Belief::draw_feasible(std::size_t count, support::Rng& rng, c
                                          const support::Deadline& deadline) const {
   std::vector<Drawn> poses;
   const double radius = model_->voxels->grid.half_diagonal();
-  const auto lacks = [&](std::size_t wanted) { return poses.size() < wanted && deadline.used_fraction() < latest; };
+  const auto lacks = [&](std::size_t wanted) {
+    return poses.size() < wanted && deadline.used_fraction() < latest_draw;
+  };
   for (std::size_t i = 0; i < known.size() && lacks(count - count / least_share); ++i)
     if (const auto still = brought_back(task(), history_, known[i], least_near)) poses.push_back(*still);
   std::size_t tried = 0;

@@ -292,7 +292,7 @@ std::vector<WeighedCells::Weighed> WeighedCells::draw_parts(const Task& task, co
     for (const Weighed& part : parts) most = std::max(most, frame_.radius(part.cell));
     return most;
   };
-  for (double most = coarsest(); most > radius && deadline.used_fraction() < 0.5; most = coarsest()) {
+  for (double most = coarsest(); most > radius && deadline.used_fraction() < latest_draw; most = coarsest()) {
     std::vector<std::array<Weighed, 2>> pairs(parts.size());
     support::for_ranges(parts.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)

@@ -60,7 +60,7 @@ class WeighedCells {
   std::vector<std::size_t> doubted() const;
 
   /// `count` parts of cells of at most `radius` (m) drawn by weight: cells are halved, and again and again `count` are
-  /// drawn of the halves. Stops early, with coarser parts, once half of a budget in seconds is used up.
+  /// drawn of the halves. Stops early, with coarser parts, after `latest_draw`.
   std::vector<Weighed> draw_parts(const Task& task, const std::vector<Trace>& history, std::size_t count, double radius,
                                   support::Rng& rng,
                                   const support::Deadline& deadline = support::Deadline::unlimited()) const;

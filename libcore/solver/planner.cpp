@@ -323,7 +323,7 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   };
   const motion::JointPath way_back = way_off(belief);
   const std::vector<Touch> touches = touched_in_vain(belief);
-  const bool does_not_err = belief.sensing().missed_contacts == 0.0 && belief.sensing().false_contacts == 0.0;
+  const bool does_not_err = !belief.sensing().errs();
   const bool feels = has_met_something(belief.history());
   std::vector<std::size_t> held_back;
   for (std::size_t i = 0; i < choices.size(); ++i)
