@@ -48,6 +48,14 @@ double turn_of(const scene::SearchFrame& frame, const Pose& base_from_tool) {
   return std::atan2(turned(1, 0) - turned(0, 1), turned(0, 0) + turned(1, 1));
 }
 
+std::size_t opposite(std::size_t direction) { return direction ^ 1; }
+
+MotionPtr reversed(const Task& task, const Motion& move) {
+  Motion back;
+  back.path.assign(move.path.rbegin(), move.path.rend());
+  return finished(task, std::move(back));
+}
+
 }  // namespace
 
 Lattice::Lattice(const Task& task, const JointVector& q, double pitch)
@@ -96,9 +104,12 @@ MotionPtr Lattice::step(std::size_t place, std::size_t direction) const {
   return *kept;
 }
 
+/// The way back of a move that is there already, if it is.
 MotionPtr Lattice::made(std::size_t place, std::size_t direction) const {
   const auto next = neighbour(place, direction);
   if (!next) return nullptr;
+  if (const auto& forth = steps_[*next * directions + opposite(direction)])
+    return *forth ? reversed(task_, **forth) : nullptr;
   const auto start = task_.posture(places_[place], q_);
   if (!start) return nullptr;
   auto path = task_.straight_path(*start, places_[*next], task_.options().motion.step);

@@ -24,6 +24,7 @@ constexpr double certain = 0.9;           // probability of meeting only what wa
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
 constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then;
 constexpr double least_sample = 0.5;      // and so many at least
+constexpr double in_time = 0.95;          // of a budget in seconds: what is in hand then still has to be finished
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
 bool has_met_something(const std::vector<belief::Trace>& history) {
@@ -50,14 +51,14 @@ Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOption
       rng_(support::mix(options.seed ^ own_stream)),
       sample_(std::isinf(options.budget_seconds) ? search_sample : 1.0) {
   check(options_);
-  if (is_bounded()) PoseProblem::prepare(*model_->task, *library_);
+  if (is_bounded()) PoseProblem::prepare(model_->task, library_, !std::isinf(options_.budget_seconds));
 }
 
 Planner::~Planner() = default;
 
 Answer Planner::query(const belief::Belief& belief) {
   cancelled_.store(false, std::memory_order_relaxed);
-  support::Deadline deadline(options_.budget_seconds,
+  support::Deadline deadline(in_time * options_.budget_seconds,
                              options_.budget_expansions == 0 ? UINT64_MAX : options_.budget_expansions, &cancelled_);
   alternatives_.clear();
   if (policy_) policy_->verdicts.clear();
@@ -187,14 +188,14 @@ BeliefStatePtr Planner::on_voxels(const belief::Belief& belief, const support::D
   if (model_->options.likelihood == belief::Likelihood::calibrated)
     feasible = belief::poses_of(belief.draw_feasible(model_->options.particles, rng_, {}, deadline));
   return std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)
-      ->start(belief.configuration(), belief.voxels());
+      ->start(belief.configuration(), belief.voxels(), deadline);
 }
 
-BeliefStatePtr Planner::on_poses(const belief::Belief& belief) {
+BeliefStatePtr Planner::on_poses(const belief::Belief& belief, const support::Deadline& deadline) {
   predict(belief);
   return std::make_shared<PoseProblem>(model_->task, library_, predictions_, belief.bits(), options_.cost_per_bit,
                                        second_value_of(options_.solver), !has_met_something(belief.history()))
-      ->start(belief.configuration());
+      ->start(belief.configuration(), deadline);
 }
 
 /// Bounds are of poses: their solver plans on poses from the first, whatever the phase.
@@ -206,8 +207,8 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   const bool has_poses = in_phase || (is_bounded() && !poses_.empty());
   SearchOptions search = search_options(options_);
   search.bounded = search.bounded && has_poses;
-  policy_ =
-      std::make_unique<Policy>(Policy{Search(has_poses ? on_poses(belief) : on_voxels(belief, deadline), search)});
+  policy_ = std::make_unique<Policy>(
+      Policy{Search(has_poses ? on_poses(belief, deadline) : on_voxels(belief, deadline), search)});
   const bool searches = search.bounded && !has_met_something(belief.history());
   const bool is_greedy = greedy_of(options_.solver).has_value();
   if (is_greedy || search.bounded) policy_->search.expand_start(deadline);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "action/insertion.hpp"
 #include "action/near_pokes.hpp"
@@ -28,6 +29,8 @@ constexpr std::size_t most_anchored = 24;     // motions that a policy's cost is
 constexpr std::size_t weighed_carefully = 8;  // choices
 constexpr std::size_t least_walked = 12;      // poses for which a walk is weighed
 constexpr std::size_t most_swept = 150;       // poses for which sweeps are
+constexpr std::size_t each_when_late = 8;     // motions of a kind that are weighed at the start when time is up
+constexpr std::size_t rehearsed = 60;         // poses on which a first call is made ahead of it
 constexpr double same_seat = 0.0015;          // m between seated poses that one attempt may serve
 constexpr double lever = 0.02;                // m by which a turn counts as a shift there
 
@@ -48,26 +51,38 @@ class PoseState : public BeliefState {
   Values heuristic() const override { return values(problem_->task_->base_from_tool(q_), indices(members_), false); }
 
   std::vector<Choice> choices(const support::Deadline& deadline) const override {
+    return weighed_ ? *weighed_ : weighed(deadline);
+  }
+
+  /// What the choices are to be from now on.
+  void keep(std::vector<Choice> choices) { weighed_ = std::move(choices); }
+
+  std::vector<Choice> weighed(const support::Deadline& deadline) const {
     std::vector<Choice> result;
-    const auto consider = [&](const MotionPtr& motion) {
-      if (!motion || (!result.empty() && (at_start_ ? deadline.cancelled() : deadline.spent()))) return;
-      Choice choice = weigh(motion);
-      const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
-      const bool moves = !motion->anchored && choice.outcomes.front().waypoint == motion->path.size();
-      if (informs || moves) result.push_back(std::move(choice));
+    const auto is_late = [&](std::size_t weighed) {
+      return at_start_ && weighed < problem_->weighed_late() ? deadline.cancelled() : deadline.spent();
+    };
+    const auto consider = [&](const std::vector<MotionPtr>& motions) {
+      std::size_t weighed = 0;
+      for (const MotionPtr& motion : motions) {
+        if (!motion || (!result.empty() && is_late(weighed++))) continue;
+        Choice choice = weigh(motion);
+        const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
+        const bool moves = !motion->anchored && choice.outcomes.front().waypoint == motion->path.size();
+        if (informs || moves) result.push_back(std::move(choice));
+      }
     };
     const std::size_t attempts = at_start_
                                      ? static_cast<std::size_t>(problem_->task_->options().actions.insertion_candidates)
                                      : inner_candidates;
-    for (const MotionPtr& motion : problem_->library_->primitives_at(q_))
-      if (!at_start_ || !problem_->leads_nowhere(*motion)) consider(motion);
-    if (at_start_ && !problem_->nothing_met_)
-      for (const MotionPtr& motion : problem_->near_pokes(q_)) consider(motion);
+    std::vector<MotionPtr> primitives = problem_->library_->primitives_at(q_);
+    if (at_start_) std::erase_if(primitives, [&](const MotionPtr& motion) { return problem_->leads_nowhere(*motion); });
+    consider(primitives);
+    if (at_start_ && !problem_->nothing_met_) consider(problem_->near_pokes(q_));
     const bool nears = !at_start_ || !problem_->nothing_met_;
-    for (const MotionPtr& motion : problem_->insertions(members_, q_, attempts, nears)) consider(motion);
-    for (const MotionPtr& motion : anchored()) consider(motion);
-    if (at_start_ && result.empty())
-      for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);
+    consider(problem_->insertions(members_, q_, attempts, nears));
+    consider(anchored());
+    if (at_start_ && result.empty()) consider(problem_->library_->primitives_at(q_));
     if (at_start_ && problem_->walk_) weigh_carefully(result, deadline);
     return result;
   }
@@ -157,6 +172,7 @@ class PoseState : public BeliefState {
   JointVector q_;
   Bitset members_;
   bool at_start_;
+  std::optional<std::vector<Choice>> weighed_;
 };
 
 PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
@@ -177,11 +193,22 @@ PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_p
   find_neighbours();
 }
 
-void PoseProblem::prepare(const action::Task& task, action::ActionLibrary& library) {
-  library.probes_in(task.frame().region, task.scene().start, lines_per_side);
+void PoseProblem::prepare(const std::shared_ptr<const action::Task>& task,
+                          const std::shared_ptr<action::ActionLibrary>& library, bool walks) {
+  const scene::Scene& scene = task->scene();
+  if (walks) {
+    support::Rng rng(0);
+    std::vector<Pose> poses;
+    while (poses.size() < rehearsed) poses.push_back(scene.prior.sample(rng));
+    std::make_shared<PoseProblem>(task, library, std::make_shared<Predictions>(task, std::move(poses)), 0.0, 0.0,
+                                  SecondValue::upper_bound, true)
+        ->start(scene.start)
+        ->choices(support::Deadline::unlimited());
+  }
+  library->probes_in(task->frame().region, scene.start, lines_per_side);
 }
 
-BeliefStatePtr PoseProblem::start(const JointVector& q) {
+BeliefStatePtr PoseProblem::start(const JointVector& q, const support::Deadline& deadline) {
   auto state = std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_->poses().size(), true), true);
   if (second_ == SecondValue::upper_bound) {
     policy_ = rate_policy(q);
@@ -189,12 +216,16 @@ BeliefStatePtr PoseProblem::start(const JointVector& q) {
                                          task_->base_from_tool(q), dimensions());
     return state;
   }
+  const double least = std::exchange(cost_per_bit_, 1.0);
+  std::vector<Choice> choices = state->weighed(deadline);
   std::vector<double> cost, gained;
-  for (const Choice& choice : state->choices(support::Deadline::unlimited())) {
+  for (const Choice& choice : choices) {
     cost.push_back(choice.expected_cost());
     gained.push_back(choice.information());
   }
-  cost_per_bit_ = greedy_cost_per_bit(cost, gained, cost_per_bit_);
+  cost_per_bit_ = greedy_cost_per_bit(cost, gained, least);
+  price_bits(choices, cost_per_bit_);
+  state->keep(std::move(choices));
   return state;
 }
 
@@ -207,6 +238,10 @@ double PoseProblem::simulated(const std::vector<std::size_t>& group, const Pose&
   const double cost = policy_->cost(group, base_from_tool);
   return group.size() < least_walked ? cost : std::min(cost, walk_->cost(group, base_from_tool, beam));
 }
+
+/// How many motions of each kind are weighed where planning starts, time or not: with an upper bound, which says what
+/// any of them is worth, some of each; without, all, as the best of some may be far from any good.
+std::size_t PoseProblem::weighed_late() const { return walk_ ? each_when_late : SIZE_MAX; }
 
 int PoseProblem::dimensions() const {
   const geometry::PoseVector& width = task_->scene().prior.width;

@@ -26,11 +26,14 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
               SecondValue second = SecondValue::greedy, bool nothing_met = false);
 
   /// Makes the anchored motions for a belief that is the whole prior, of a robot that stands at the scene's start,
-  /// ahead of the call that asks for them. Some tenths of a second.
-  static void prepare(const action::Task& task, action::ActionLibrary& library);
+  /// ahead of the call that asks for them; if it `walks`, also the steps of walks that such a call looks at. Some
+  /// tenths of a second each.
+  static void prepare(const std::shared_ptr<const action::Task>& task,
+                      const std::shared_ptr<action::ActionLibrary>& library, bool walks);
 
-  /// The belief at the start: all poses.
-  BeliefStatePtr start(const robot::JointVector& q);
+  /// The belief at the start: all poses. Without an upper bound as the second value its motions are weighed at once,
+  /// as `BeliefState::choices` has it: what a bit is worth depends on them.
+  BeliefStatePtr start(const robot::JointVector& q, const support::Deadline& deadline = support::Deadline::unlimited());
 
  private:
   friend class PoseState;
@@ -38,6 +41,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   bool leads_nowhere(const action::Motion& motion) const;
   const std::vector<action::MotionPtr>& anchored(const robot::JointVector& near);
   int dimensions() const;  ///< that are free
+  std::size_t weighed_late() const;
   std::size_t seats() const { return task_->scene().target.target_from_seated.size(); }
   void find_neighbours();
   action::MotionPtr ending_with_contacts(const action::MotionPtr& motion);

@@ -45,6 +45,10 @@ struct Choice {
 double greedy_cost_per_bit(const std::vector<double>& expected_cost, const std::vector<double>& expected_bits,
                            double least);
 
+/// Makes a bit worth so much to the greedy heuristics of outcomes that were weighed as if it were worth one unit of
+/// cost.
+void price_bits(std::vector<Choice>& choices, double cost_per_bit);
+
 /// A belief as the solver sees it, whichever representation is behind it. Immutable, but for what is computed on first
 /// use.
 class BeliefState {
@@ -57,8 +61,8 @@ class BeliefState {
   virtual std::size_t support_size() const = 0;  ///< poses or voxels that the belief rests on
 
   /// Every motion worth considering with what may come of it: the expensive part of an expansion. Some of them, at
-  /// least the first, if the deadline is spent before all are weighed; where planning starts, only if it is cancelled:
-  /// the best of a few may be far from any good.
+  /// least the first, if the deadline is spent before all are weighed. Where planning starts, all, or some of every
+  /// kind at least, unless it is cancelled: the best of a few that are alike may be far from any good.
   virtual std::vector<Choice> choices(const support::Deadline& deadline) const = 0;
 
   /// The belief after an outcome that is not the goal.

@@ -55,6 +55,12 @@ double greedy_cost_per_bit(const std::vector<double>& expected_cost, const std::
   return lowest < 1e300 ? std::max(least, overestimate * lowest) : least;
 }
 
+void price_bits(std::vector<Choice>& choices, double cost_per_bit) {
+  for (Choice& choice : choices)
+    for (Outcome& outcome : choice.outcomes)
+      outcome.heuristic[1] = outcome.heuristic[0] + cost_per_bit * (outcome.heuristic[1] - outcome.heuristic[0]);
+}
+
 Search::Search(BeliefStatePtr start_state, const SearchOptions& options) : options_(options) {
   intern(std::move(start_state));
 }
@@ -122,12 +128,12 @@ std::optional<std::size_t> Search::outcome_to_follow(int node, std::size_t choic
   return widest;
 }
 
-/// What there was not time for is left undone. At the start all is weighed, late or not, unless somebody cancels: what
-/// was weighed by then is kept, and says nothing of what is the least possible.
+/// What there was not time for is left undone. At the start what was weighed is kept, and if it may not be all, says
+/// nothing of what is the least possible.
 bool Search::expand(int index, support::Deadline& deadline) {
   Node& node = nodes_[index];
   std::vector<Choice> choices = node.state->choices(deadline);
-  const bool is_cut_short = index == start ? deadline.cancelled() : deadline.spent();
+  const bool is_cut_short = deadline.spent();
   if (is_cut_short && index != start) return false;
   node.choices = std::move(choices);
   for (const Choice& choice : node.choices) node.children.emplace_back(choice.outcomes.size(), -1);

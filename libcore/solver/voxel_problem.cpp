@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "action/probes.hpp"
 
@@ -122,11 +123,18 @@ class VoxelState : public BeliefState {
   }
 
   std::vector<Choice> choices(const support::Deadline& deadline) const override {
+    return weighed_ ? *weighed_ : weighed([&] { return deadline.spent(); });
+  }
+
+  /// What the choices are to be from now on.
+  void keep(std::vector<Choice> choices) { weighed_ = std::move(choices); }
+
+  std::vector<Choice> weighed(const std::function<bool()>& is_late) const {
     if (done()) return {};
     std::vector<Choice> result;
     const BoxCounts counts(voxels_.possibly_occupied(), grid());
     const auto consider = [&](const MotionPtr& motion) {
-      if (!result.empty() && deadline.cancelled()) return;
+      if (!result.empty() && is_late()) return;
       Choice choice = weigh(motion, counts);
       const bool moves = !motion->anchored && choice.outcomes.front().waypoint == motion->path.size();
       if (choice.outcomes.size() > 1 || moves) result.push_back(std::move(choice));
@@ -278,6 +286,7 @@ class VoxelState : public BeliefState {
   VoxelBelief voxels_;
   Bitset feasible_;  ///< of the problem's poses
   std::size_t count_;
+  std::optional<std::vector<Choice>> weighed_;
 };
 
 VoxelProblem::VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library,
@@ -290,18 +299,21 @@ VoxelProblem::VoxelProblem(std::shared_ptr<const belief::Model> model, std::shar
   for (const Vector3& v : model_->task->scene().tool.vertices) tool_reach_ = std::max(tool_reach_, v.norm());
 }
 
-BeliefStatePtr VoxelProblem::start(const JointVector& q, const VoxelBelief& voxels) {
+BeliefStatePtr VoxelProblem::start(const JointVector& q, const VoxelBelief& voxels, const support::Deadline& deadline) {
   auto state = std::make_shared<VoxelState>(shared_from_this(), q, voxels, Bitset(predictions_.poses().size(), true));
   cost_per_bit_ = 1.0;
   const double bits = state->heuristic()[1] - state->heuristic()[0];
+  std::vector<Choice> choices = state->weighed([&] { return deadline.cancelled(); });
   std::vector<double> cost, gained;
-  for (const Choice& choice : state->choices(support::Deadline::unlimited())) {
+  for (const Choice& choice : choices) {
     cost.push_back(choice.expected_cost());
     gained.push_back(bits);
     for (const Outcome& outcome : choice.outcomes)
       gained.back() -= outcome.probability * (outcome.heuristic[1] - outcome.heuristic[0]);
   }
   cost_per_bit_ = greedy_cost_per_bit(cost, gained, least_cost_per_bit_);
+  price_bits(choices, cost_per_bit_);
+  state->keep(std::move(choices));
   return state;
 }
 

@@ -31,7 +31,10 @@ class VoxelProblem : public std::enable_shared_from_this<VoxelProblem> {
   VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library,
                std::vector<geometry::Pose> poses, double cost_per_bit);
 
-  BeliefStatePtr start(const robot::JointVector& q, const belief::VoxelBelief& voxels);
+  /// The belief at the start. Its motions are weighed at once, as `BeliefState::choices` has it: what a bit is worth
+  /// depends on them.
+  BeliefStatePtr start(const robot::JointVector& q, const belief::VoxelBelief& voxels,
+                       const support::Deadline& deadline = support::Deadline::unlimited());
 
   /// By waypoint of a motion from where the robot is, the probability that the first contact is there, and last that
   /// there is none.

@@ -86,6 +86,21 @@ TEST(Lattice, StepsLeadFromPlaceToPlaceAndAreFree) {
   EXPECT_GT(made, 20);
 }
 
+TEST(Lattice, TheWayBackIsTheWayForth) {
+  Rng rng(6);
+  const Lattice lattice(task(), random_stand(rng), pitch);
+  for (std::size_t place = 0; place < lattice.size(); ++place)
+    for (std::size_t direction = 0; direction < Lattice::directions; ++direction) {
+      const auto next = lattice.neighbour(place, direction);
+      if (!next) continue;
+      const MotionPtr forth = lattice.step(place, direction), back = lattice.step(*next, direction ^ 1);
+      ASSERT_EQ(forth == nullptr, back == nullptr);
+      if (!forth) continue;
+      ASSERT_TRUE(std::equal(forth->path.begin(), forth->path.end(), back->path.rbegin(), back->path.rend()));
+      ASSERT_NEAR(forth->cost_to.back(), back->cost_to.back(), 1e-12);
+    }
+}
+
 TEST(Lattice, SomeStepMeetsTheTargetWhereverItIsInADeepRegion) {
   const auto deep = small_task({.roll_width = 0.2, .depth_width = 0.2});
   const Lattice lattice(*deep, deep->home(), pitch);

@@ -72,6 +72,22 @@ TEST(Query, HandsOutAFreeActionFromWhereTheRobotIsWithinItsExpansions) {
       }
 }
 
+TEST(Query, HandsOutAnActionHoweverLittleTimeThereIs) {
+  for (const Kind kind : {Kind::hierarchical, Kind::particles})
+    for (const Solver solver : solvers) {
+      Rng rng(29);
+      const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+      Belief belief(model(kind), task()->scene().start);
+      Planner planner(model(kind), {.solver = solver, .budget_seconds = 1e-6});
+      for (int i = 0; i < 3 && !belief.is_goal(); ++i) {
+        const Answer answer = planner.query(belief);
+        ASSERT_EQ(answer.kind, Answer::Kind::action) << solver::name_of(solver) << ", action " << i;
+        EXPECT_LE(planner.statistics().lower_bound, planner.statistics().value + 1e-9);
+        belief.step(*answer.action, world.execute(*answer.action));
+      }
+    }
+}
+
 TEST(Query, GivesTheSameActionsForTheSameSeedAndExpansions) {
   Rng rng(1);
   const PlainWorld world(*task(), task()->scene().prior.sample(rng));

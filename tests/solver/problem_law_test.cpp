@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -132,6 +134,30 @@ TEST(Choices, OutcomesAreADistributionOverAscendingWaypoints) {
       ASSERT_NEAR(choice.information(), bits, 1e-12);
     }
   });
+}
+
+TEST(Choices, AreTheFirstOfAllOnceSomebodyCancels) {
+  const std::atomic<bool> cancelled{true};
+  const support::Deadline at_once(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled);
+  for_random_beliefs(11, 3, [&](const Tracked& at, const std::vector<Choice>& all, Rng&) {
+    const std::vector<Choice> some = at.state->choices(at_once);
+    ASSERT_EQ(some.empty(), all.empty());
+    for (std::size_t i = 0; i < some.size(); ++i) ASSERT_EQ(some[i].motion, all[i].motion);
+  });
+  Rng rng(12);
+  for (const auto second : {solver::SecondValue::greedy, solver::SecondValue::upper_bound}) {
+    const std::vector<Pose> poses = belief::poses_of(random_belief(Kind::particles, rng).draw(40, rng));
+    const auto weighed_at_start = [&](const support::Deadline& deadline) {
+      return std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
+                                                   std::make_shared<solver::Predictions>(task(), poses), 10.0, 0.035,
+                                                   second)
+          ->start(task()->scene().start, deadline)
+          ->choices(deadline)
+          .size();
+    };
+    EXPECT_EQ(weighed_at_start(at_once), 1u);
+    EXPECT_GT(weighed_at_start(support::Deadline::unlimited()), 10u);
+  }
 }
 
 TEST(Choices, CostTheWayToTheirStartAndAlongThem) {
