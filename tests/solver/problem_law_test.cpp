@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <limits>
 #include <map>
@@ -21,6 +22,7 @@ using solver::BeliefState;
 using solver::BeliefStatePtr;
 using solver::Choice;
 using solver::Outcome;
+using solver::SecondValue;
 using support::Rng;
 
 constexpr std::size_t trusted =
@@ -53,6 +55,19 @@ belief::Belief random_belief(Kind kind, Rng& rng) {
     belief.step(action, world.execute(action));
   }
   return belief;
+}
+
+/// Of a belief of cells.
+std::vector<Pose> random_poses(Rng& rng) { return belief::poses_of(random_belief(Kind::particles, rng).draw(40, rng)); }
+
+/// At a belief that is so many poses, of a robot that has met something and stands at the scene's start.
+std::vector<Choice> weighed_at_start(const std::vector<Pose>& poses, SecondValue second,
+                                     const support::Deadline& deadline) {
+  return std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
+                                               std::make_shared<solver::Predictions>(task(), poses), 10.0, 0.035,
+                                               second)
+      ->start(task()->scene().start, deadline)
+      ->choices(deadline);
 }
 
 Tracked on_poses(Rng& rng) {
@@ -145,18 +160,32 @@ TEST(Choices, AreTheFirstOfAllOnceSomebodyCancels) {
     for (std::size_t i = 0; i < some.size(); ++i) ASSERT_EQ(some[i].motion, all[i].motion);
   });
   Rng rng(12);
-  for (const auto second : {solver::SecondValue::greedy, solver::SecondValue::upper_bound}) {
-    const std::vector<Pose> poses = belief::poses_of(random_belief(Kind::particles, rng).draw(40, rng));
-    const auto weighed_at_start = [&](const support::Deadline& deadline) {
-      return std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
-                                                   std::make_shared<solver::Predictions>(task(), poses), 10.0, 0.035,
-                                                   second)
-          ->start(task()->scene().start, deadline)
-          ->choices(deadline)
-          .size();
+  for (const SecondValue second : {SecondValue::greedy, SecondValue::upper_bound})
+    EXPECT_EQ(weighed_at_start(random_poses(rng), second, at_once).size(), 1u);
+}
+
+TEST(Choices, AreSomeOfEveryKindWhereThereIsNoTime) {
+  constexpr std::size_t kinds = 3, few = 8;
+  const support::Deadline no_time(0.0, UINT64_MAX);
+  Rng rng(13);
+  for (int i = 0; i < 3; ++i) {
+    const std::vector<Pose> poses = random_poses(rng);
+    const auto counts = [&](SecondValue second, const support::Deadline& deadline) {
+      std::array<std::size_t, kinds> of_kind{};
+      for (const Choice& choice : weighed_at_start(poses, second, deadline))
+        ++of_kind[choice.motion->kind == action::Kind::insertion ? 0 : choice.motion->anchored ? 1 : 2];
+      return of_kind;
     };
-    EXPECT_EQ(weighed_at_start(at_once), 1u);
-    EXPECT_GT(weighed_at_start(support::Deadline::unlimited()), 10u);
+    const auto all = counts(SecondValue::upper_bound, support::Deadline::unlimited());
+    const auto some = counts(SecondValue::upper_bound, no_time);
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+      EXPECT_LE(some[kind], all[kind]);
+      EXPECT_GE(some[kind], std::min(all[kind], few / 2));  // some of those weighed tell nothing
+    }
+    EXPECT_LE(some[0], few);
+    EXPECT_LE(some[1], few);
+    EXPECT_GT(all[1], few);
+    EXPECT_EQ(counts(SecondValue::greedy, no_time), counts(SecondValue::greedy, support::Deadline::unlimited()));
   }
 }
 
