@@ -43,9 +43,12 @@ static void print_standing(FILE* out, const comparison* c, int solver, trial_pha
 
 static void print_solver(FILE* out, const comparison* c, int solver) {
   const run_result* run = &c->results[solver];
+  const run_summary summary = summarise(run);
   fputs("{\"solver\": ", out);
   json_text(out, run->setting.solver);
-  fprintf(out, ", \"trials\": %d, \"inserted\": %d, ", run->count, summarise(run).inserted);
+  fprintf(out, ", \"trials\": %d, \"inserted\": %d", run->count, summary.inserted);
+  json_number_field(out, "certificate", summary.certificate, json_full);
+  fputs(", ", out);
   print_standing(out, c, solver, phase_whole);
   fputs(",\n     \"phases\": {\"voxels\": {", out);
   print_standing(out, c, solver, phase_voxels);

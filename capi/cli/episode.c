@@ -18,6 +18,7 @@ typedef struct {
   tactus_planner* planner;
   tactus_observation observation; /* of the last action */
   tactus_summary summary;         /* of the belief as it is */
+  int32_t planned_on;             /* as it was at the last query */
   tactus_statistics statistics;   /* of the last query */
   double led_m, led_rad;          /* what the tool frame went and turned until the trial began */
   recording* record;              /* may be NULL */
@@ -36,6 +37,10 @@ static void notice_hand_over(episode* e) {
 static void notice_plan(episode* e) {
   static const double late = 1.05;
   trial_result* r = e->result;
+  if (e->planned_on == TACTUS_PHASE_POSES && isnan(r->poses_value)) {
+    r->poses_lower_bound = e->statistics.lower_bound;
+    r->poses_value = e->statistics.value;
+  }
   r->slowest_planning_s = fmax(r->slowest_planning_s, e->statistics.seconds);
   r->late_plans += e->statistics.seconds > late * e->setup->planner.budget_seconds;
 }
@@ -108,7 +113,8 @@ static tactus_status perform(episode* e, const tactus_action* action) {
   if (status != TACTUS_OK) return status;
   const char* kind = tactus_action_kind_name(properties.kind);
   print_progress(e, kind);
-  const step_facts facts = {e->planner, kind, r->whole.cost_m, r->whole.planning_s};
+  const step_facts facts = {e->planner,         kind, r->whole.cost_m, r->whole.planning_s, e->statistics.lower_bound,
+                            e->statistics.value};
   if (e->record != NULL && !record_step(e->record, action, &e->observation, e->belief, &facts)) return TACTUS_INTERNAL;
   return TACTUS_OK;
 }
@@ -149,6 +155,7 @@ static tactus_status keep_action(head_start* start, tactus_action* action) {
 
 static tactus_status step(episode* e) {
   tactus_action* action = NULL;
+  e->planned_on = e->summary.phase;
   tactus_status status = tactus_planner_query_action(e->planner, e->belief, &action);
   if (status == TACTUS_OK) status = perform(e, action);
   if (status == TACTUS_OK && e->course->keep != NULL) return keep_action(e->course->keep, action);
@@ -206,6 +213,7 @@ static void init_result(trial_result* result, uint64_t seed, const double true_p
   memcpy(result->true_pose, true_pose, sizeof result->true_pose);
   result->seed = seed;
   result->truth_kept = true;
+  result->poses_lower_bound = result->poses_value = NAN;
   result->position_error_m = result->angle_error_rad = NAN;
   result->voxels = (effort){NAN, NAN, NAN, NAN, NAN, NAN};
 }

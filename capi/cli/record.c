@@ -218,6 +218,8 @@ static void print_step(FILE* out, const recorded_step* step) {
   json_bool_field(out, "contact", step->contact);
   json_number_field(out, "cost_m", step->facts.cost_m, json_full);
   json_number_field(out, "planning_s", step->facts.planning_s, json_full);
+  json_number_field(out, "lower_bound", step->facts.lower_bound, json_full);
+  json_number_field(out, "value", step->facts.value, json_full);
   fputs(", \"belief\": ", out);
   print_snapshot(out, &step->belief);
   fputs(", \"why\": ", out);

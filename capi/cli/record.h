@@ -17,6 +17,7 @@ typedef struct {
   const char* kind;
   double cost_m;
   double planning_s;
+  double lower_bound, value; /* of the plan that it is from */
 } step_facts;
 
 /* Writes the scenario's bodies and begins the frames. NULL if that failed. `file` stays the caller's. */

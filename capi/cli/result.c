@@ -58,6 +58,24 @@ bool add_trial(run_result* run, const trial_result* trial) {
   return true;
 }
 
+static int compare_numbers(const void* a, const void* b) {
+  const double one = *(const double*)a, other = *(const double*)b;
+  return (one > other) - (one < other);
+}
+
+/* NAN if there is none, or no room to sort them. */
+static double median_certificate(const run_result* run) {
+  double* ratios = malloc(((size_t)run->count + 1) * sizeof *ratios);
+  size_t count = 0;
+  for (int i = 0; ratios != NULL && i < run->count; ++i)
+    if (run->trials[i].poses_lower_bound > 0.0)
+      ratios[count++] = run->trials[i].poses_value / run->trials[i].poses_lower_bound;
+  if (count > 0) qsort(ratios, count, sizeof *ratios, compare_numbers);
+  const double median = count > 0 ? 0.5 * (ratios[(count - 1) / 2] + ratios[count / 2]) : (double)NAN;
+  free(ratios);
+  return median;
+}
+
 run_summary summarise(const run_result* run) {
   run_summary sum;
   memset(&sum, 0, sizeof sum);
@@ -73,5 +91,6 @@ run_summary summarise(const run_result* run) {
     sum.slowest_planning_s = fmax(sum.slowest_planning_s, trial->slowest_planning_s);
     sum.late_plans += trial->late_plans;
   }
+  sum.certificate = median_certificate(run);
   return sum;
 }

@@ -52,6 +52,8 @@ typedef struct {
   uint64_t expansions;       /* beliefs expanded */
   double slowest_planning_s; /* of a call */
   int late_plans;            /* calls that took over 5 % longer than the budget in seconds, if there is one */
+  double poses_lower_bound;  /* of the first plan on a belief of poses; and its value, which the solver that bounds */
+  double poses_value;        /* costs is never above */
   double position_error_m;   /* of the belief's mean */
   double angle_error_rad;
   trial_end ended;
@@ -90,6 +92,7 @@ typedef struct {
   double contacts, expansions;
   double slowest_planning_s;
   int late_plans;
+  double certificate; /* median of value / lower bound at the first plans on poses */
 } run_summary;
 
 run_summary summarise(const run_result* run);

@@ -28,6 +28,8 @@ void print_table(FILE* out, const run_result* run) {
           "beliefs expanded a second\n",
           mean->cost_m, mean->travel_m, mean->actions, summary.contacts, mean->planning_s, mean->planner_calls,
           mean->planning_s > 0.0 ? summary.expansions / mean->planning_s : 0.0);
+  if (!isnan(summary.certificate))
+    fprintf(out, "first plan on poses: value %.2f times the lower bound in the median\n", summary.certificate);
   fprintf(out, "slowest plan: %.2f s; ", summary.slowest_planning_s);
   if (isnan(run->setting.budget_seconds))
     fputs("no budget in seconds\n", out);

@@ -7,6 +7,7 @@ The page is one file that needs no network. The record:
     bodies     [{name, kind: robot | tool | world | target, vertices: flat x y z in metres, triangles: flat indices}]
     frames     [{poses: a body each, x y z qx qy qz qw in the robot's base frame, action: index into steps, contact: bool}]
     steps      [{kind, phase, contact, cost_m, planning_s, belief: {points: [[x, y, z]], ...}, why}], after the action: cost and planning so far
+               lower_bound, value: optional: of the plan that the action is from, what it may cost from there on at least, and what the solver expects
                why: optional: {weighed: motions in all, alternatives: [{kind, verdict, value, ...}]}, the best of what the action was chosen from
     prior      optional: the belief at the start, with the same keys
     inserted   optional: whether the run ended plugged in; else judged by its last action

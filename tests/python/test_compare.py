@@ -6,6 +6,7 @@ import math
 import os
 import pathlib
 import signal
+import statistics
 import subprocess
 import time
 
@@ -153,11 +154,17 @@ def check_standing(row, mine, firsts, phase):
         assert (row["cost_ratio_low"], row["cost_ratio_high"]) == pytest.approx(expected, rel=1e-5)
 
 
+def certificate(trials):
+    ratios = [trial["poses_value"] / trial["poses_lower_bound"] for trial in trials if trial["poses_lower_bound"]]
+    return statistics.median(ratios) if ratios else None
+
+
 def check_summary(document):
     firsts = trials_of(document, SOLVERS[0])
     for row in document["summary"]:
         mine = trials_of(document, row["solver"])
         assert row["trials"] == len(mine) and row["inserted"] == sum(trial["inserted"] for trial in mine.values())
+        assert row["certificate"] == (None if certificate(mine.values()) is None else pytest.approx(certificate(mine.values()), rel=1e-6))
         check_standing(row, mine, firsts, "whole")
         for phase in ("voxels", "poses"):
             check_standing(row["phases"][phase], mine, firsts, phase)
@@ -166,6 +173,7 @@ def check_summary(document):
 def test_the_summary_follows_from_the_trials(whole, poses):
     for _, document, _ in (whole, poses):
         check_summary(document)
+        assert any(row["certificate"] is not None for row in document["summary"])
     rows = whole[1]["summary"]
     assert any(row["common"] < row["finished"] or row["finished"] < TRIALS for row in rows) and rows[1]["common"] >= 2
 

@@ -208,7 +208,8 @@ def test_command_goes_the_same_way_and_writes_json_and_record(loop_in_c, tmp_pat
     assert list(trial) == ["seed", "true_pose", "inserted", "truth_kept", "cost_m", "travel_m", "rotation_rad", "actions",
                            "contacts", "planner_calls", "planning_s", "phase1_cost_m", "position_error_m",
                            "angle_error_rad", "phase1_travel_m", "phase1_rotation_rad", "phase1_actions",
-                           "phase1_planner_calls", "phase1_planning_s", "slowest_planning_s", "late_plans"]
+                           "phase1_planner_calls", "phase1_planning_s", "slowest_planning_s", "late_plans",
+                           "poses_lower_bound", "poses_value"]
     assert trial["actions"] == len(loop_in_c) - 1 and trial["inserted"] == (loop_in_c[-1] == "inserted")
     assert trial["cost_m"] == pytest.approx(
         trial["travel_m"] + 0.05 * trial["rotation_rad"] + 0.005 * trial["actions"], rel=1e-6)
