@@ -24,6 +24,7 @@ constexpr double certain = 0.9;           // probability of meeting only what wa
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
 constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then;
 constexpr double least_sample = 0.5;      // and so many at least
+constexpr double aim = 0.7;               // of a budget in seconds, to weigh the motions where planning starts
 constexpr double in_time = 0.95;          // of a budget in seconds: what is in hand then still has to be finished
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
@@ -51,7 +52,13 @@ Planner::Planner(std::shared_ptr<const belief::Model> model, const PlannerOption
       rng_(support::mix(options.seed ^ own_stream)),
       sample_(std::isinf(options.budget_seconds) ? search_sample : 1.0) {
   check(options_);
-  if (is_bounded()) PoseProblem::prepare(model_->task, library_, !std::isinf(options_.budget_seconds));
+  if (!is_bounded()) return;
+  PoseProblem::prepare(*model_->task, *library_);
+  if (std::isinf(options_.budget_seconds)) return;
+  const auto few = static_cast<std::size_t>(std::ceil(least_sample * static_cast<double>(model_->options.particles)));
+  const double used = PoseProblem::rehearse(model_->task, library_, few) / options_.budget_seconds;
+  sample_ = std::clamp(least_sample * aim / used, least_sample, search_sample);
+  PoseProblem::prepare(*model_->task, *library_);
 }
 
 Planner::~Planner() = default;
@@ -220,7 +227,7 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
 /// As many poses as there is time to weigh all motions at the start for, by the share of the budget that the last ones
 /// `used`.
 void Planner::fit_sample(double& times, double most, double used) const {
-  constexpr double aim = 0.7, at_least = 0.4, at_most = 1.6;
+  constexpr double at_least = 0.4, at_most = 1.6;
   if (std::isinf(options_.budget_seconds)) return;
   times = std::clamp(times * std::clamp(aim / used, at_least, at_most), least_sample, most);
 }

@@ -30,7 +30,6 @@ constexpr std::size_t weighed_carefully = 8;  // choices
 constexpr std::size_t least_walked = 12;      // poses for which a walk is weighed
 constexpr std::size_t most_swept = 150;       // poses for which sweeps are
 constexpr std::size_t each_when_late = 8;     // motions of a kind that are weighed at the start when time is up
-constexpr std::size_t rehearsed = 60;         // poses on which a first call is made ahead of it
 constexpr double same_seat = 0.0015;          // m between seated poses that one attempt may serve
 constexpr double lever = 0.02;                // m by which a turn counts as a shift there
 
@@ -59,13 +58,13 @@ class PoseState : public BeliefState {
 
   std::vector<Choice> weighed(const support::Deadline& deadline) const {
     std::vector<Choice> result;
-    const auto is_late = [&](std::size_t weighed) {
-      return at_start_ && weighed < problem_->weighed_late() ? deadline.cancelled() : deadline.spent();
+    const auto is_late = [&](std::size_t of_this_kind) {
+      return at_start_ && of_this_kind < problem_->weighed_late() ? deadline.cancelled() : deadline.spent();
     };
-    const auto consider = [&](const std::vector<MotionPtr>& motions) {
-      std::size_t weighed = 0;
-      for (const MotionPtr& motion : motions) {
-        if (!motion || (!result.empty() && is_late(weighed++))) continue;
+    const auto consider = [&](const std::vector<MotionPtr>& of_a_kind) {
+      std::size_t count = 0;
+      for (const MotionPtr& motion : of_a_kind) {
+        if (!motion || (!result.empty() && is_late(count++))) continue;
         Choice choice = weigh(motion);
         const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
         const bool moves = !motion->anchored && choice.outcomes.front().waypoint == motion->path.size();
@@ -193,19 +192,25 @@ PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_p
   find_neighbours();
 }
 
-void PoseProblem::prepare(const std::shared_ptr<const action::Task>& task,
-                          const std::shared_ptr<action::ActionLibrary>& library, bool walks) {
-  const scene::Scene& scene = task->scene();
-  if (walks) {
-    support::Rng rng(0);
-    std::vector<Pose> poses;
-    while (poses.size() < rehearsed) poses.push_back(scene.prior.sample(rng));
-    std::make_shared<PoseProblem>(task, library, std::make_shared<Predictions>(task, std::move(poses)), 0.0, 0.0,
+void PoseProblem::prepare(const action::Task& task, action::ActionLibrary& library) {
+  library.probes_in(task.frame().region, task.scene().start, lines_per_side);
+}
+
+double PoseProblem::rehearse(const std::shared_ptr<const action::Task>& task,
+                             const std::shared_ptr<action::ActionLibrary>& library, std::size_t poses) {
+  const auto weighed_in = [&](std::uint64_t seed) {
+    const support::Deadline clock = support::Deadline::unlimited();
+    support::Rng rng(seed);
+    std::vector<Pose> drawn;
+    while (drawn.size() < poses) drawn.push_back(task->scene().prior.sample(rng));
+    std::make_shared<PoseProblem>(task, library, std::make_shared<Predictions>(task, std::move(drawn)), 0.0, 0.0,
                                   SecondValue::upper_bound, true)
-        ->start(scene.start)
-        ->choices(support::Deadline::unlimited());
-  }
-  library->probes_in(task->frame().region, scene.start, lines_per_side);
+        ->start(task->scene().start)
+        ->choices(clock);
+    return clock.elapsed_seconds();
+  };
+  weighed_in(0);
+  return weighed_in(1);
 }
 
 BeliefStatePtr PoseProblem::start(const JointVector& q, const support::Deadline& deadline) {

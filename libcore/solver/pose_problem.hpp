@@ -26,10 +26,13 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
               SecondValue second = SecondValue::greedy, bool nothing_met = false);
 
   /// Makes the anchored motions for a belief that is the whole prior, of a robot that stands at the scene's start,
-  /// ahead of the call that asks for them; if it `walks`, also the steps of walks that such a call looks at. Some
-  /// tenths of a second each.
-  static void prepare(const std::shared_ptr<const action::Task>& task,
-                      const std::shared_ptr<action::ActionLibrary>& library, bool walks);
+  /// ahead of the call that asks for them. Some tenths of a second.
+  static void prepare(const action::Task& task, action::ActionLibrary& library);
+
+  /// Weighs the motions of such a call on so many poses, so that the steps of walks that it looks at are there too.
+  /// Half a second or so. Returns how many seconds that takes once they are.
+  static double rehearse(const std::shared_ptr<const action::Task>& task,
+                         const std::shared_ptr<action::ActionLibrary>& library, std::size_t poses);
 
   /// The belief at the start: all poses. Without an upper bound as the second value its motions are weighed at once,
   /// as `BeliefState::choices` has it: what a bit is worth depends on them.
