@@ -59,7 +59,8 @@ TACTUS_API tactus_status tactus_scenario_planner_options(const tactus_scenario* 
 
 /**
  * A planner for beliefs of this scenario, of either kind. `options`: NULL for the scenario's. With brtdp-bel it takes
- * some tenths of a second: motions for the first query are made here.
+ * half a second: motions for the first query are made here; with a budget in seconds one to two, as that query is
+ * rehearsed.
  *
  * TACTUS_INVALID_ARGUMENT (out of range, NaN), TACTUS_STRUCT_SIZE.
  */

@@ -34,7 +34,8 @@ struct Answer {
 /// observations are the predicted ones. One thread at a time; `cancel` from any.
 class Planner {
  public:
-  /// Throws `invalid_argument` for options out of range.
+  /// Throws `invalid_argument` for options out of range. With bounds it makes motions for the first query, and
+  /// rehearses it where the budget is in seconds: one to two seconds.
   Planner(std::shared_ptr<const belief::Model> model, const PlannerOptions& options);
   ~Planner();
 
