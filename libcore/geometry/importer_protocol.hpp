@@ -11,7 +11,8 @@ namespace tactus::geometry {
 ///
 /// with the process that it must not outlive, the format (an extension: "stl"), the most triangles, the seconds of
 /// computing and the bytes of memory that the import may take. Its standard input is the mesh file. To its standard
-/// output it writes the size of what it has to say (8 bytes, in the machine's order), an `Answer`, and what that says.
+/// output it writes the size of what it has to say (8 bytes, in the machine's order), an `Answer`, and what that says;
+/// nothing else, and nothing to its standard error. Arguments that are not these it answers with `no_mesh`.
 constexpr const char* importer_name = "tactus-import-mesh";
 constexpr int importer_arguments = 5;
 

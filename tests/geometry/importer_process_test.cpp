@@ -120,6 +120,17 @@ TEST_F(ImporterProcess, LeavesNeitherChildNorDescriptorBehind) {
   EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
 }
 
+TEST_F(ImporterProcess, AnswersToAnyArguments) {
+  const std::string importer = (own_module().parent_path().parent_path() / "lib" / "tactus" / importer_name).string();
+  const std::string silent = folder_.string() + "/errors";
+  for (const char* arguments : {"", "1 obj", "none obj 1 1 1", "1 obj 1 1 99999999999999999999", "1 obj 1 1 1 1"}) {
+    EXPECT_EQ(answer_of("exec " + importer + " " + arguments + " 2> " + silent),
+              "this program is for libtactus.so to start")
+        << arguments;
+    EXPECT_EQ(fs::file_size(silent), 0u);
+  }
+}
+
 TEST_F(ImporterProcess, DoesNotForkItsCaller) {
   static int forks = 0;
   ASSERT_EQ(::pthread_atfork([] { ++forks; }, nullptr, nullptr), 0);

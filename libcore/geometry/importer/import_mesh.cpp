@@ -17,8 +17,8 @@
 #include <csignal>
 #include <cstdint>
 #include <fstream>
-#include <iostream>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -44,10 +44,13 @@ struct Order {
   rlim_t bytes;
 };
 
-Order order_of(int count, char** arguments) {
-  if (count != 1 + importer_arguments) throw std::invalid_argument("this program is for libtactus.so to start");
-  return {static_cast<pid_t>(std::stol(arguments[1])), arguments[2], std::stoull(arguments[3]),
-          std::stoull(arguments[4]), std::stoull(arguments[5])};
+/// None if that is no order.
+std::optional<Order> order_of(int count, char** arguments) try {
+  if (count != 1 + importer_arguments) return std::nullopt;
+  return Order{static_cast<pid_t>(std::stol(arguments[1])), arguments[2], std::stoull(arguments[3]),
+               std::stoull(arguments[4]), std::stoull(arguments[5])};
+} catch (const std::logic_error&) {  // of a number that is none, or too large
+  return std::nullopt;
 }
 
 /// From here on this process ends with its parent. False if that has ended already.
@@ -196,19 +199,15 @@ bool carry_out(const Order& order) {
   }
 }
 
-int run(const Order& order) {
-  if (!bind_to(order.parent)) return 1;
+int run(const std::optional<Order>& order) {
+  if (!order) return send(Answer::no_mesh, "this program is for libtactus.so to start") ? 2 : 1;
+  if (!bind_to(order->parent)) return 1;
   crash_by_signal();
-  set_limits(order);
-  return carry_out(order) ? 0 : 1;
+  set_limits(*order);
+  return carry_out(*order) ? 0 : 1;
 }
 
 }  // namespace
 }  // namespace tactus::geometry
 
-int main(int count, char** arguments) try {
-  return tactus::geometry::run(tactus::geometry::order_of(count, arguments));
-} catch (const std::exception& error) {
-  std::cerr << arguments[0] << ": " << error.what() << '\n';
-  return 2;
-}
+int main(int count, char** arguments) { return tactus::geometry::run(tactus::geometry::order_of(count, arguments)); }
