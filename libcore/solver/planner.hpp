@@ -70,7 +70,7 @@ class Planner {
   std::vector<belief::Drawn> draw(const belief::Belief& belief, const support::Deadline& deadline);
   void fit_sample(double& times, double most, double used) const;
   BeliefStatePtr on_voxels(const belief::Belief& belief, const support::Deadline& deadline);
-  BeliefStatePtr on_poses(const belief::Belief& belief, const support::Deadline& deadline);
+  BeliefStatePtr on_poses(const belief::Belief& belief);
   void plan(const belief::Belief& belief, support::Deadline& deadline);
 
   std::shared_ptr<const belief::Model> model_;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "action/insertion.hpp"
 #include "action/near_pokes.hpp"
@@ -50,13 +49,7 @@ class PoseState : public BeliefState {
   Values heuristic() const override { return values(problem_->task_->base_from_tool(q_), indices(members_), false); }
 
   std::vector<Choice> choices(const support::Deadline& deadline) const override {
-    return weighed_ ? *weighed_ : weighed(deadline);
-  }
-
-  /// What the choices are to be from now on.
-  void keep(std::vector<Choice> choices) { weighed_ = std::move(choices); }
-
-  std::vector<Choice> weighed(const support::Deadline& deadline) const {
+    if (at_start_) problem_->cost_per_bit_ = 1.0;
     std::vector<Choice> result;
     const auto is_late = [&](std::size_t of_this_kind) {
       return at_start_ && of_this_kind < problem_->weighed_late() ? deadline.cancelled() : deadline.spent();
@@ -83,6 +76,7 @@ class PoseState : public BeliefState {
     consider(anchored());
     if (at_start_ && result.empty()) consider(problem_->library_->primitives_at(q_));
     if (at_start_ && problem_->walk_) weigh_carefully(result, deadline);
+    if (at_start_ && !problem_->policy_) problem_->price_bits(result);
     return result;
   }
 
@@ -171,7 +165,6 @@ class PoseState : public BeliefState {
   JointVector q_;
   Bitset members_;
   bool at_start_;
-  std::optional<std::vector<Choice>> weighed_;
 };
 
 PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
@@ -183,6 +176,7 @@ PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_p
       region_(bounds()),
       plane_(action::retreat_plane(*task_, region_)),
       bits_(bits),
+      least_cost_per_bit_(cost_per_bit),
       cost_per_bit_(cost_per_bit),
       second_(second),
       nothing_met_(nothing_met) {
@@ -213,25 +207,24 @@ double PoseProblem::rehearse(const std::shared_ptr<const action::Task>& task,
   return weighed_in(1);
 }
 
-BeliefStatePtr PoseProblem::start(const JointVector& q, const support::Deadline& deadline) {
-  auto state = std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_->poses().size(), true), true);
+BeliefStatePtr PoseProblem::start(const JointVector& q) {
   if (second_ == SecondValue::upper_bound) {
     policy_ = rate_policy(q);
     walk_ = std::make_unique<WalkPolicy>(task_, library_->lattice_through(q), *predictions_, *policy_,
                                          task_->base_from_tool(q), dimensions());
-    return state;
   }
-  const double least = std::exchange(cost_per_bit_, 1.0);
-  std::vector<Choice> choices = state->weighed(deadline);
+  return std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_->poses().size(), true), true);
+}
+
+/// By the motions at the start, which were weighed as if a bit were worth one unit of cost.
+void PoseProblem::price_bits(std::vector<Choice>& choices) {
   std::vector<double> cost, gained;
   for (const Choice& choice : choices) {
     cost.push_back(choice.expected_cost());
     gained.push_back(choice.information());
   }
-  cost_per_bit_ = greedy_cost_per_bit(cost, gained, least);
-  price_bits(choices, cost_per_bit_);
-  state->keep(std::move(choices));
-  return state;
+  cost_per_bit_ = greedy_cost_per_bit(cost, gained, least_cost_per_bit_);
+  solver::price_bits(choices, cost_per_bit_);
 }
 
 /// The cost of the cheaper policy, where both may be; where many poses are left, sweeps one by one are not weighed.

@@ -34,9 +34,9 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   static double rehearse(const std::shared_ptr<const action::Task>& task,
                          const std::shared_ptr<action::ActionLibrary>& library, std::size_t poses);
 
-  /// The belief at the start: all poses. Without an upper bound as the second value its motions are weighed at once,
-  /// as `BeliefState::choices` has it: what a bit is worth depends on them.
-  BeliefStatePtr start(const robot::JointVector& q, const support::Deadline& deadline = support::Deadline::unlimited());
+  /// The belief at the start: all poses. Without an upper bound as the second value, what a bit is worth to the
+  /// heuristics of what follows depends on its choices: they are to be asked for first.
+  BeliefStatePtr start(const robot::JointVector& q);
 
  private:
   friend class PoseState;
@@ -45,6 +45,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   const std::vector<action::MotionPtr>& anchored(const robot::JointVector& near);
   int dimensions() const;  ///< that are free
   std::size_t weighed_late() const;
+  void price_bits(std::vector<Choice>& at_start);
   std::size_t seats() const { return task_->scene().target.target_from_seated.size(); }
   void find_neighbours();
   action::MotionPtr ending_with_contacts(const action::MotionPtr& motion);
@@ -71,7 +72,8 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   std::vector<support::Bitset> neighbours_;  ///< by seat: those that one attempt may serve, itself among them
   std::vector<Attempt> attempts_;            ///< by seat
   double bits_;
-  double cost_per_bit_;
+  double least_cost_per_bit_;
+  double cost_per_bit_;  ///< of h_inad, from the greedy rate at the start
   SecondValue second_;
   bool nothing_met_;
   std::unique_ptr<RatePolicy> policy_;  ///< once there is a start, if its cost is the second value

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "action/probes.hpp"
 
@@ -101,12 +100,14 @@ std::vector<double> first_contact_probabilities(const std::vector<double>& likel
 /// A configuration, PO and C.
 class VoxelState : public BeliefState {
  public:
-  VoxelState(std::shared_ptr<VoxelProblem> problem, JointVector q, VoxelBelief voxels, Bitset feasible)
+  VoxelState(std::shared_ptr<VoxelProblem> problem, JointVector q, VoxelBelief voxels, Bitset feasible,
+             bool at_start = false)
       : problem_(std::move(problem)),
         q_(std::move(q)),
         voxels_(std::move(voxels)),
         feasible_(std::move(feasible)),
-        count_(voxels_.possibly_occupied().count()) {}
+        count_(voxels_.possibly_occupied().count()),
+        at_start_(at_start) {}
 
   support::Hash128 hash() const override {
     std::uint64_t salt = action::path_id({q_});
@@ -123,24 +124,19 @@ class VoxelState : public BeliefState {
   }
 
   std::vector<Choice> choices(const support::Deadline& deadline) const override {
-    return weighed_ ? *weighed_ : weighed([&] { return deadline.spent(); });
-  }
-
-  /// What the choices are to be from now on.
-  void keep(std::vector<Choice> choices) { weighed_ = std::move(choices); }
-
-  std::vector<Choice> weighed(const std::function<bool()>& is_late) const {
     if (done()) return {};
+    if (at_start_) problem_->cost_per_bit_ = 1.0;
     std::vector<Choice> result;
     const BoxCounts counts(voxels_.possibly_occupied(), grid());
     const auto consider = [&](const MotionPtr& motion) {
-      if (!result.empty() && is_late()) return;
+      if (!result.empty() && (at_start_ ? deadline.cancelled() : deadline.spent())) return;
       Choice choice = weigh(motion, counts);
       const bool moves = !motion->anchored && choice.outcomes.front().waypoint == motion->path.size();
       if (choice.outcomes.size() > 1 || moves) result.push_back(std::move(choice));
     };
     for (const MotionPtr& motion : problem_->anchored(voxels_, q_)) consider(motion);
     for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);
+    if (at_start_) problem_->price_bits(bits_left(), result);
     return result;
   }
 
@@ -170,6 +166,7 @@ class VoxelState : public BeliefState {
  private:
   const VoxelGrid& grid() const { return voxels_.model().grid; }
   bool done() const { return count_ <= problem_->model_->options.delta; }
+  double bits_left() const { return problem_->bits_to_delta(static_cast<double>(count_)); }
 
   double nearest(const Pose& base_from_tool) const {
     const Box box = box_of(voxels_.possibly_occupied(), grid(), Pose::Identity());
@@ -286,7 +283,7 @@ class VoxelState : public BeliefState {
   VoxelBelief voxels_;
   Bitset feasible_;  ///< of the problem's poses
   std::size_t count_;
-  std::optional<std::vector<Choice>> weighed_;
+  bool at_start_;
 };
 
 VoxelProblem::VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library,
@@ -299,11 +296,13 @@ VoxelProblem::VoxelProblem(std::shared_ptr<const belief::Model> model, std::shar
   for (const Vector3& v : model_->task->scene().tool.vertices) tool_reach_ = std::max(tool_reach_, v.norm());
 }
 
-BeliefStatePtr VoxelProblem::start(const JointVector& q, const VoxelBelief& voxels, const support::Deadline& deadline) {
-  auto state = std::make_shared<VoxelState>(shared_from_this(), q, voxels, Bitset(predictions_.poses().size(), true));
-  cost_per_bit_ = 1.0;
-  const double bits = state->heuristic()[1] - state->heuristic()[0];
-  std::vector<Choice> choices = state->weighed([&] { return deadline.cancelled(); });
+BeliefStatePtr VoxelProblem::start(const JointVector& q, const VoxelBelief& voxels) {
+  return std::make_shared<VoxelState>(shared_from_this(), q, voxels, Bitset(predictions_.poses().size(), true), true);
+}
+
+/// By the motions at the start, where so many `bits` are missing; they were weighed as if one were worth one unit of
+/// cost.
+void VoxelProblem::price_bits(double bits, std::vector<Choice>& choices) {
   std::vector<double> cost, gained;
   for (const Choice& choice : choices) {
     cost.push_back(choice.expected_cost());
@@ -312,9 +311,7 @@ BeliefStatePtr VoxelProblem::start(const JointVector& q, const VoxelBelief& voxe
       gained.back() -= outcome.probability * (outcome.heuristic[1] - outcome.heuristic[0]);
   }
   cost_per_bit_ = greedy_cost_per_bit(cost, gained, least_cost_per_bit_);
-  price_bits(choices, cost_per_bit_);
-  state->keep(std::move(choices));
-  return state;
+  solver::price_bits(choices, cost_per_bit_);
 }
 
 std::vector<double> VoxelProblem::forecast(const VoxelBelief& voxels, const MotionPtr& motion) {
@@ -341,11 +338,14 @@ const std::vector<MotionPtr>& VoxelProblem::anchored(const VoxelBelief& voxels, 
   return anchored_;
 }
 
+double VoxelProblem::bits_to_delta(double count) const {
+  return std::log2(std::max(1.0, count / std::max(1.0, static_cast<double>(model_->options.delta))));
+}
+
 /// h_ad: the way to the nearest voxel that may be occupied; h_inad adds what the bits down to delta are worth.
 Values VoxelProblem::heuristic(double count, double to_nearest) const {
   const double least = model_->task->options().cost.metre * to_nearest + model_->task->options().cost.action;
-  const double bits = std::log2(std::max(1.0, count / std::max(1.0, static_cast<double>(model_->options.delta))));
-  return {least, least + cost_per_bit_ * bits};
+  return {least, least + cost_per_bit_ * bits_to_delta(count)};
 }
 
 }  // namespace tactus::solver

@@ -31,10 +31,9 @@ class VoxelProblem : public std::enable_shared_from_this<VoxelProblem> {
   VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library,
                std::vector<geometry::Pose> poses, double cost_per_bit);
 
-  /// The belief at the start. Its motions are weighed at once, as `BeliefState::choices` has it: what a bit is worth
-  /// depends on them.
-  BeliefStatePtr start(const robot::JointVector& q, const belief::VoxelBelief& voxels,
-                       const support::Deadline& deadline = support::Deadline::unlimited());
+  /// The belief at the start. What a bit is worth to the heuristics of what follows depends on its choices: they are to
+  /// be asked for first.
+  BeliefStatePtr start(const robot::JointVector& q, const belief::VoxelBelief& voxels);
 
   /// By waypoint of a motion from where the robot is, the probability that the first contact is there, and last that
   /// there is none.
@@ -44,7 +43,9 @@ class VoxelProblem : public std::enable_shared_from_this<VoxelProblem> {
   friend class VoxelState;
   const contact::SweptVoxels& swept(const action::MotionPtr& motion);
   const std::vector<action::MotionPtr>& anchored(const belief::VoxelBelief& voxels, const robot::JointVector& near);
+  double bits_to_delta(double count) const;
   Values heuristic(double count, double to_nearest) const;
+  void price_bits(double bits, std::vector<Choice>& at_start);
 
   std::shared_ptr<const belief::Model> model_;
   std::shared_ptr<action::ActionLibrary> library_;

@@ -66,7 +66,7 @@ std::vector<Choice> weighed_at_start(const std::vector<Pose>& poses, SecondValue
   return std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
                                                std::make_shared<solver::Predictions>(task(), poses), 10.0, 0.035,
                                                second)
-      ->start(task()->scene().start, deadline)
+      ->start(task()->scene().start)
       ->choices(deadline);
 }
 
