@@ -48,6 +48,7 @@ double turn_of(const scene::SearchFrame& frame, const Pose& base_from_tool) {
   return std::atan2(turned(1, 0) - turned(0, 1), turned(0, 0) + turned(1, 1));
 }
 
+bool goes_back(std::size_t direction) { return direction % 2 != 0; }
 std::size_t opposite(std::size_t direction) { return direction ^ 1; }
 
 MotionPtr reversed(const Task& task, const Motion& move) {
@@ -92,24 +93,29 @@ std::optional<std::size_t> Lattice::neighbour(std::size_t place, std::size_t dir
   const std::size_t axis = direction / 2;
   const std::array<std::size_t, 3> strides{across_[1], 1, across_[0] * across_[1]};
   const std::size_t at = place / strides[axis] % across_[axis];
-  const bool forth = direction % 2 == 0;
-  if (forth ? at + 1 >= across_[axis] : at == 0) return std::nullopt;
-  return forth ? place + strides[axis] : place - strides[axis];
+  if (goes_back(direction) ? at == 0 : at + 1 >= across_[axis]) return std::nullopt;
+  return goes_back(direction) ? place - strides[axis] : place + strides[axis];
 }
 
 MotionPtr Lattice::step(std::size_t place, std::size_t direction) const {
   const std::lock_guard lock(mutex_);
+  return kept_step(place, direction);
+}
+
+const MotionPtr& Lattice::kept_step(std::size_t place, std::size_t direction) const {
   std::optional<MotionPtr>& kept = steps_[place * directions + direction];
   if (!kept) kept = made(place, direction);
   return *kept;
 }
 
-/// The way back of a move that is there already, if it is.
+/// Those that go back along an axis are the way back of those that go forth, whichever is asked for first.
 MotionPtr Lattice::made(std::size_t place, std::size_t direction) const {
   const auto next = neighbour(place, direction);
   if (!next) return nullptr;
-  if (const auto& forth = steps_[*next * directions + opposite(direction)])
-    return *forth ? reversed(task_, **forth) : nullptr;
+  if (goes_back(direction)) {
+    const MotionPtr& forth = kept_step(*next, opposite(direction));
+    return forth ? reversed(task_, *forth) : nullptr;
+  }
   const auto start = task_.posture(places_[place], q_);
   if (!start) return nullptr;
   auto path = task_.straight_path(*start, places_[*next], task_.options().motion.step);

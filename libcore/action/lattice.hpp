@@ -37,6 +37,7 @@ class Lattice {
   MotionPtr step(std::size_t place, std::size_t direction) const;
 
  private:
+  const MotionPtr& kept_step(std::size_t place, std::size_t direction) const;
   MotionPtr made(std::size_t place, std::size_t direction) const;
 
   const Task& task_;

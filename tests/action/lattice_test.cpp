@@ -101,6 +101,22 @@ TEST(Lattice, TheWayBackIsTheWayForth) {
     }
 }
 
+TEST(Lattice, StepsAreTheSameWhicheverOfThemIsAskedForFirst) {
+  Rng rng(7);
+  const JointVector q = random_stand(rng);
+  const Lattice one(task(), q, pitch), other(task(), q, pitch);
+  const std::size_t count = one.size() * Lattice::directions;
+  for (std::size_t i = 0; i < count; ++i) one.step(i / Lattice::directions, i % Lattice::directions);
+  for (std::size_t i = count; i-- > 0;) {
+    const std::size_t place = i / Lattice::directions, direction = i % Lattice::directions;
+    const MotionPtr first = one.step(place, direction), last = other.step(place, direction);
+    ASSERT_EQ(first == nullptr, last == nullptr);
+    if (first) {
+      ASSERT_EQ(first->path, last->path);
+    }
+  }
+}
+
 TEST(Lattice, SomeStepMeetsTheTargetWhereverItIsInADeepRegion) {
   const auto deep = small_task({.roll_width = 0.2, .depth_width = 0.2});
   const Lattice lattice(*deep, deep->home(), pitch);

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/walks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <queue>
+
+#include "solver/policy_setting.hpp"
+
+/// The ways on which the target is looked for.
+namespace tactus::test {
+namespace {
+
+using action::Lattice;
+using solver::Walk;
+using solver::Walks;
+
+constexpr double blocked = 1e300;
+
+/// Walks over a wide prior, and those of its poses that some step touches.
+struct Walking {
+  explicit Walking(std::size_t count, Rng& rng)
+      : predictions(on, random_poses(count, rng, 1.0, *on)),
+        walks(on, std::make_shared<const Lattice>(*on, on->home(), 0.04), predictions),
+        members(count) {
+    for (std::size_t place = 0; place < walks.lattice().size(); ++place)
+      for (std::size_t direction = 0; direction < Lattice::directions; ++direction)
+        members |= walks.step(place, direction).touched;
+  }
+
+  /// What a walk costs on average until it touches the target, or to its end, and for how many it ends without.
+  std::pair<double, std::size_t> expected(const Walk& walk) const {
+    Bitset left = members;
+    double sum = walk.entry * static_cast<double>(left.count());
+    for (const auto& [place, direction] : walk.steps) {
+      const std::size_t before = left.count();
+      left.and_not(walks.step(place, direction).touched);
+      sum += walks.step(place, direction).cost * 0.5 * static_cast<double>(before + left.count());
+    }
+    return {sum / static_cast<double>(members.count()), left.count()};
+  }
+
+  /// The least that any walk costs that touches all, by Dijkstra's algorithm over places and what is left there.
+  double least_expected(const Pose& base_from_tool) const {
+    using State = std::pair<std::size_t, std::uint64_t>;  // place, and what is left
+    const auto total = static_cast<double>(members.count());
+    const std::uint64_t all = members.words()[0];
+    std::map<State, double> least;
+    std::priority_queue<std::pair<double, State>, std::vector<std::pair<double, State>>, std::greater<>> open;
+    const auto reach = [&](const State& state, double cost) {
+      const auto [entry, is_new] = least.try_emplace(state, cost);
+      if (!is_new && entry->second <= cost) return;
+      entry->second = cost;
+      open.emplace(cost, state);
+    };
+    for (std::size_t place = 0; place < walks.lattice().size(); ++place)
+      if (const double cost = walks.entry_cost(base_from_tool, place); cost < blocked) reach({place, all}, cost);
+    while (!open.empty()) {
+      const auto [cost, state] = open.top();
+      open.pop();
+      const auto [place, left] = state;
+      if (cost > least[state]) continue;
+      if (left == 0) return cost;
+      for (std::size_t direction = 0; direction < Lattice::directions; ++direction) {
+        const Walks::Step& step = walks.step(place, direction);
+        if (step.cost >= blocked) continue;
+        const std::uint64_t then = left & ~step.touched.words()[0];
+        reach({step.to, then}, cost + step.cost * 0.5 * (std::popcount(left) + std::popcount(then)) / total);
+      }
+    }
+    return blocked;
+  }
+
+  std::shared_ptr<const action::Task> on = small_task({.roll_width = 0.2, .position_width = 0.4});
+  solver::Predictions predictions;
+  Walks walks;
+  Bitset members;
+};
+
+TEST(Walks, CostNoLessThanTheBestOfAllAndWithAWideBeamLittleMore) {
+  constexpr std::size_t beam = 96;
+  Rng rng(1);
+  double sum = 0.0, least_sum = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    const Walking setting(8, rng);
+    for (int k = 0; k < 3; ++k) {
+      const Pose at = random_place(rng);
+      const auto [cost, missed] = setting.expected(setting.walks.best(setting.members, at, beam));
+      const double least = setting.least_expected(at);
+      EXPECT_EQ(missed, 0u);
+      EXPECT_GE(cost, least - 1e-9);
+      sum += cost;
+      least_sum += least;
+    }
+  }
+  EXPECT_LT(sum, 1.05 * least_sum);
+}
+
+/// However far off the tool is: no step tells anything then for a while, and a beam that stays near it finds nothing.
+TEST(Walks, TouchNearlyAllPosesFromWhereverTheToolIs) {
+  Rng rng(2);
+  for (const std::size_t beam : {6u, 24u})
+    for (int i = 0; i < 4; ++i) {
+      const Walking setting(60, rng);
+      for (int k = 0; k < 6; ++k) {
+        Pose at = random_place(rng);
+        at.translation().x() -= rng.uniform(0.0, 0.2);
+        EXPECT_LE(setting.expected(setting.walks.best(setting.members, at, beam)).second, 1u);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace tactus::test
