@@ -19,6 +19,7 @@ constexpr double finest_part = 0.00025;       // m: radius of the parts that pos
                                               // the history by no more serves as well as an exact one
 constexpr double least_step = -6.0;           // log2 of how much of a cell's width
 constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
+constexpr double latest_brought_back = 0.2;   // of a budget
 constexpr std::size_t unproved_share = 8;     // of them anywhere in a cell, for what no other speaks for
 constexpr std::size_t far_share = 16;         // of them in cells that are the farthest from any other pose;
 constexpr std::size_t most_compared = 30000;  // cells, if there are no more
@@ -148,15 +149,18 @@ class Draw {
     }
   }
 
-  /// Of parts that may have given the history to a quarter of a millimetre, as many by lot as are wanted. Where there
-  /// was no time for parts as fine, anywhere in them.
+  /// Of parts that may have given the history to a quarter of a millimetre, as many by lot as are wanted. When time is
+  /// up, those of fine parts are not asked for all of the history again, which takes milliseconds each where the tool
+  /// is nearly seated; others are anywhere in a part that no motion swept through.
   void from_fine_parts() {
     std::vector<Cell> parts =
         cells_.draw_parts(belief_.task(), belief_.history(), lots_per_pose * count_, finest_part, rng_, deadline_);
     for (std::size_t i = 0; i < parts.size() && size() < count_ && (i < count_ || lacks(count_)); ++i) {
       std::swap(parts[i], parts[i + rng_.below(parts.size() - i)]);
-      if (cells_.radius(parts[i]) <= fine_radius || lacks(count_))
+      if (lacks(count_))
         add_from(parts[i]);
+      else if (cells_.radius(parts[i]) <= fine_radius)
+        add({geometry::pose_from(cells_.draw_in(parts[i], rng_)), cells_.radius(parts[i])});
       else
         add_anywhere_in(parts[i]);
     }
@@ -164,8 +168,10 @@ class Draw {
 
   /// Those of an earlier state, as far as they agree with what was felt since; a part of those wanted is drawn afresh.
   void bring_back(const std::vector<Drawn>& known) {
-    for (std::size_t i = 0; i < known.size() && lacks(count_ - count_ / least_share); ++i)
-      if (const auto still = brought_back(belief_.task(), belief_.history(), known[i], near_)) add(*still);
+    for (const Drawn& one : known) {
+      if (!lacks(count_ - count_ / least_share) || deadline_.used_fraction() >= latest_brought_back) return;
+      if (const auto still = brought_back(belief_.task(), belief_.history(), one, near_)) add(*still);
+    }
   }
 
   /// However little they weigh: a planner that does not know of them takes for done what is not.

@@ -28,7 +28,7 @@ constexpr std::size_t most_anchored = 24;     // motions that a policy's cost is
 constexpr std::size_t weighed_carefully = 8;  // choices
 constexpr std::size_t least_walked = 12;      // poses for which a walk is weighed
 constexpr std::size_t most_swept = 150;       // poses for which sweeps are
-constexpr std::size_t each_when_late = 8;     // motions of a kind that are weighed at the start when time is up
+constexpr std::size_t each_when_late = 3;     // motions of a kind that are weighed at the start when time is up
 constexpr double same_seat = 0.0015;          // m between seated poses that one attempt may serve
 constexpr double lever = 0.02;                // m by which a turn counts as a shift there
 
@@ -50,32 +50,9 @@ class PoseState : public BeliefState {
 
   std::vector<Choice> choices(const support::Deadline& deadline) const override {
     if (at_start_) problem_->cost_per_bit_ = 1.0;
-    std::vector<Choice> result;
-    const auto is_late = [&](std::size_t of_this_kind) {
-      return at_start_ && of_this_kind < problem_->weighed_late() ? deadline.cancelled() : deadline.spent();
-    };
-    const auto consider = [&](const std::vector<MotionPtr>& of_a_kind) {
-      std::size_t count = 0;
-      for (const MotionPtr& motion : of_a_kind) {
-        if (!motion || (!result.empty() && is_late(count++))) continue;
-        Choice choice = weigh(motion);
-        const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
-        const bool moves = !motion->anchored && choice.outcomes.front().waypoint == motion->path.size();
-        if (informs || moves) result.push_back(std::move(choice));
-      }
-    };
-    const std::size_t attempts = at_start_
-                                     ? static_cast<std::size_t>(problem_->task_->options().actions.insertion_candidates)
-                                     : inner_candidates;
-    std::vector<MotionPtr> primitives = problem_->library_->primitives_at(q_);
-    if (at_start_) std::erase_if(primitives, [&](const MotionPtr& motion) { return problem_->leads_nowhere(*motion); });
-    consider(primitives);
-    if (at_start_ && !problem_->nothing_met_) consider(problem_->near_pokes(q_));
-    const bool nears = !at_start_ || !problem_->nothing_met_;
-    consider(problem_->insertions(members_, q_, attempts, nears));
-    consider(anchored());
-    if (at_start_ && result.empty()) consider(problem_->library_->primitives_at(q_));
-    if (at_start_ && problem_->walk_) weigh_carefully(result, deadline);
+    std::vector<Choice> result = weighed(considered(), deadline);
+    if (at_start_ && result.empty()) result = weighed({problem_->library_->primitives_at(q_)}, deadline);
+    if (at_start_ && problem_->policy_) weigh_carefully(result, deadline);
     if (at_start_ && !problem_->policy_) problem_->price_bits(result);
     return result;
   }
@@ -89,6 +66,39 @@ class PoseState : public BeliefState {
   }
 
  private:
+  using Kinds = std::vector<std::vector<MotionPtr>>;
+
+  Kinds considered() const {
+    Kinds kinds{problem_->library_->primitives_at(q_)};
+    if (at_start_) std::erase_if(kinds[0], [&](const MotionPtr& motion) { return problem_->leads_nowhere(*motion); });
+    const bool has_met = !problem_->nothing_met_;
+    if (at_start_ && has_met) kinds.push_back(problem_->near_pokes(q_));
+    const std::size_t attempts = at_start_
+                                     ? static_cast<std::size_t>(problem_->task_->options().actions.insertion_candidates)
+                                     : inner_candidates;
+    kinds.push_back(problem_->insertions(members_, q_, attempts, !at_start_ || has_met));
+    kinds.push_back(anchored());
+    return kinds;
+  }
+
+  /// Those that tell something or lead somewhere. The kinds take turns, so that there are some of each when time is up.
+  std::vector<Choice> weighed(const Kinds& kinds, const support::Deadline& deadline) const {
+    std::size_t turns = 0;
+    for (const std::vector<MotionPtr>& kind : kinds) turns = std::max(turns, kind.size());
+    std::vector<Choice> result;
+    for (std::size_t turn = 0; turn < turns; ++turn)
+      for (const std::vector<MotionPtr>& kind : kinds) {
+        if (turn >= kind.size() || !kind[turn]) continue;
+        const bool is_late = at_start_ && turn < problem_->weighed_late() ? deadline.cancelled() : deadline.spent();
+        if (is_late && !result.empty()) return result;
+        Choice choice = weigh(kind[turn]);
+        const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
+        const bool moves = !kind[turn]->anchored && choice.outcomes.front().waypoint == kind[turn]->path.size();
+        if (informs || moves) result.push_back(std::move(choice));
+      }
+    return result;
+  }
+
   static std::vector<std::size_t> indices(const Bitset& members) {
     std::vector<std::size_t> poses;
     members.for_each([&](std::size_t pose) { poses.push_back(pose); });
@@ -210,8 +220,9 @@ double PoseProblem::rehearse(const std::shared_ptr<const action::Task>& task,
 BeliefStatePtr PoseProblem::start(const JointVector& q) {
   if (second_ == SecondValue::upper_bound) {
     policy_ = rate_policy(q);
-    walk_ = std::make_unique<WalkPolicy>(task_, library_->lattice_through(q), *predictions_, *policy_,
-                                         task_->base_from_tool(q), dimensions());
+    if (nothing_met_)
+      walk_ = std::make_unique<WalkPolicy>(task_, library_->lattice_through(q), *predictions_, *policy_,
+                                           task_->base_from_tool(q), dimensions());
   }
   return std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_->poses().size(), true), true);
 }
@@ -232,14 +243,14 @@ void PoseProblem::price_bits(std::vector<Choice>& choices) {
 double PoseProblem::simulated(const std::vector<std::size_t>& group, const Pose& base_from_tool, bool is_met,
                               std::size_t beam) {
   if (nothing_met_ && is_met) return policy_->cost(group, base_from_tool);
-  if (group.size() > most_swept) return walk_->cost(group, base_from_tool, beam);
+  if (walk_ && group.size() > most_swept) return walk_->cost(group, base_from_tool, beam);
   const double cost = policy_->cost(group, base_from_tool);
-  return group.size() < least_walked ? cost : std::min(cost, walk_->cost(group, base_from_tool, beam));
+  return !walk_ || group.size() < least_walked ? cost : std::min(cost, walk_->cost(group, base_from_tool, beam));
 }
 
 /// How many motions of each kind are weighed where planning starts, time or not: with an upper bound, which says what
 /// any of them is worth, some of each; without, all, as the best of some may be far from any good.
-std::size_t PoseProblem::weighed_late() const { return walk_ ? each_when_late : SIZE_MAX; }
+std::size_t PoseProblem::weighed_late() const { return policy_ ? each_when_late : SIZE_MAX; }
 
 int PoseProblem::dimensions() const {
   const geometry::PoseVector& width = task_->scene().prior.width;

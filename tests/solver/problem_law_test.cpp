@@ -165,7 +165,7 @@ TEST(Choices, AreTheFirstOfAllOnceSomebodyCancels) {
 }
 
 TEST(Choices, AreSomeOfEveryKindWhereThereIsNoTime) {
-  constexpr std::size_t kinds = 3, few = 8;
+  constexpr std::size_t kinds = 3, few = 3;
   const support::Deadline no_time(0.0, UINT64_MAX);
   Rng rng(13);
   for (int i = 0; i < 3; ++i) {
@@ -180,7 +180,7 @@ TEST(Choices, AreSomeOfEveryKindWhereThereIsNoTime) {
     const auto some = counts(SecondValue::upper_bound, no_time);
     for (std::size_t kind = 0; kind < kinds; ++kind) {
       EXPECT_LE(some[kind], all[kind]);
-      EXPECT_GE(some[kind], std::min(all[kind], few / 2));  // some of those weighed tell nothing
+      EXPECT_GE(some[kind], std::min<std::size_t>(all[kind], 1));  // others that are weighed tell nothing
     }
     EXPECT_LE(some[0], few);
     EXPECT_LE(some[1], few);
