@@ -28,7 +28,8 @@ constexpr std::size_t most_anchored = 24;     // motions that a policy's cost is
 constexpr std::size_t weighed_carefully = 8;  // choices
 constexpr std::size_t least_walked = 12;      // poses for which a walk is weighed
 constexpr std::size_t most_swept = 150;       // poses for which sweeps are
-constexpr std::size_t each_when_late = 3;     // motions of a kind that are weighed at the start when time is up
+constexpr std::size_t each_when_late = 8;     // motions of a kind that are weighed at the start when time is up,
+constexpr std::size_t each_once_met = 3;      // and once something was met, where each takes tens of milliseconds
 constexpr double same_seat = 0.0015;          // m between seated poses that one attempt may serve
 constexpr double lever = 0.02;                // m by which a turn counts as a shift there
 
@@ -69,8 +70,11 @@ class PoseState : public BeliefState {
   using Kinds = std::vector<std::vector<MotionPtr>>;
 
   Kinds considered() const {
-    Kinds kinds{problem_->library_->primitives_at(q_)};
-    if (at_start_) std::erase_if(kinds[0], [&](const MotionPtr& motion) { return problem_->leads_nowhere(*motion); });
+    Kinds kinds;
+    if (at_start_ && problem_->walk_) kinds.push_back(problem_->walk_->steps_from(q_));
+    kinds.push_back(problem_->library_->primitives_at(q_));
+    if (at_start_)
+      std::erase_if(kinds.back(), [&](const MotionPtr& motion) { return problem_->leads_nowhere(*motion); });
     const bool has_met = !problem_->nothing_met_;
     if (at_start_ && has_met) kinds.push_back(problem_->near_pokes(q_));
     const std::size_t attempts = at_start_
@@ -242,15 +246,18 @@ void PoseProblem::price_bits(std::vector<Choice>& choices) {
 /// What follows the first contact is left to the rate policy, as walks leave it.
 double PoseProblem::simulated(const std::vector<std::size_t>& group, const Pose& base_from_tool, bool is_met,
                               std::size_t beam) {
-  if (nothing_met_ && is_met) return policy_->cost(group, base_from_tool);
-  if (walk_ && group.size() > most_swept) return walk_->cost(group, base_from_tool, beam);
+  if (!walk_ || is_met) return policy_->cost(group, base_from_tool);
+  if (group.size() > most_swept) return walk_->cost(group, base_from_tool, beam);
   const double cost = policy_->cost(group, base_from_tool);
-  return !walk_ || group.size() < least_walked ? cost : std::min(cost, walk_->cost(group, base_from_tool, beam));
+  return group.size() < least_walked ? cost : std::min(cost, walk_->cost(group, base_from_tool, beam));
 }
 
 /// How many motions of each kind are weighed where planning starts, time or not: with an upper bound, which says what
 /// any of them is worth, some of each; without, all, as the best of some may be far from any good.
-std::size_t PoseProblem::weighed_late() const { return policy_ ? each_when_late : SIZE_MAX; }
+std::size_t PoseProblem::weighed_late() const {
+  if (!policy_) return SIZE_MAX;
+  return nothing_met_ ? each_when_late : each_once_met;
+}
 
 int PoseProblem::dimensions() const {
   const geometry::PoseVector& width = task_->scene().prior.width;
@@ -264,7 +271,7 @@ bool PoseProblem::seated(const Motion& motion, std::size_t pose) const {
 /// A turn, or a move shorter than a walk's steps, while the target is looked for by walks.
 bool PoseProblem::leads_nowhere(const Motion& motion) const {
   constexpr double nearly = 0.9;
-  if (!nothing_met_ || !walk_ || motion.anchored) return false;
+  if (!walk_ || motion.anchored) return false;
   if (motion.kind == action::Kind::turn) return true;
   const std::size_t last = motion.path.size() - 1;
   return (motion.bodies.base_from_body(last, 0).translation() - motion.bodies.base_from_body(0, 0).translation())

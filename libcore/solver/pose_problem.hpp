@@ -77,7 +77,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   SecondValue second_;
   bool nothing_met_;
   std::unique_ptr<RatePolicy> policy_;  ///< once there is a start, if its cost is the second value
-  std::unique_ptr<WalkPolicy> walk_;    ///< the same; the cheaper of the two counts
+  std::unique_ptr<WalkPolicy> walk_;    ///< the same as long as nothing was met; the cheaper of the two counts
   std::vector<action::MotionPtr> anchored_;
   bool anchored_made_ = false;
   std::unordered_map<std::size_t, action::MotionPtr> insertions_;

@@ -15,9 +15,11 @@ namespace {
 using action::Lattice;
 using action::MotionPtr;
 using geometry::Pose;
+using geometry::Vector3;
 using support::Bitset;
 
 constexpr double blocked = 1e300;
+constexpr double at_place = 0.01;       // m, as `Lattice::passes` has it
 constexpr double near_by = 0.08;        // m to the nearest place, which a walk may begin at then
 constexpr int longest_walk = 160;       // steps after the first that touches something
 constexpr double least_missing = 0.02;  // share of the poses for which a walk does not go on
@@ -79,6 +81,26 @@ double Walks::entry_cost(const Pose& base_from_tool, std::size_t place) const {
   const action::CostWeights& weights = task_->options().cost;
   return distance < near_by ? weights.metre * distance + weights.radian * geometry::angle_between(base_from_tool, there)
                             : blocked;
+}
+
+std::vector<MotionPtr> Walks::steps_from(const robot::JointVector& q) const {
+  const Vector3 tool = task_->base_from_tool(q).translation();
+  const auto away = [&](std::size_t place) { return (lattice_->base_from_tool(place).translation() - tool).norm(); };
+  std::size_t here = 0;
+  for (std::size_t place = 1; place < lattice_->size(); ++place)
+    if (away(place) < away(here)) here = place;
+  std::vector<MotionPtr> steps;
+  if (away(here) > at_place) return steps;
+  for (std::size_t direction = 0; direction < Lattice::directions; ++direction) {
+    const auto next = lattice_->neighbour(here, direction);
+    if (!next) continue;
+    auto path = task_->straight_path(q, lattice_->base_from_tool(*next), task_->options().motion.step);
+    if (!path || path->size() < 2) continue;
+    action::Motion step;
+    step.path = std::move(*path);
+    steps.push_back(action::finished(*task_, std::move(step)));
+  }
+  return steps;
 }
 
 /// A beam search: of the ways of so many steps those are followed that have spent the least and have the least left.

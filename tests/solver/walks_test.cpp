@@ -3,17 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <map>
 #include <queue>
 
 #include "solver/policy_setting.hpp"
+#include "solver/walk_cost.hpp"
 
 /// The ways on which the target is looked for.
 namespace tactus::test {
 namespace {
 
 using action::Lattice;
-using solver::Walk;
 using solver::Walks;
 
 constexpr double blocked = 1e300;
@@ -29,16 +30,8 @@ struct Walking {
         members |= walks.step(place, direction).touched;
   }
 
-  /// What a walk costs on average until it touches the target, or to its end, and for how many it ends without.
-  std::pair<double, std::size_t> expected(const Walk& walk) const {
-    Bitset left = members;
-    double sum = walk.entry * static_cast<double>(left.count());
-    for (const auto& [place, direction] : walk.steps) {
-      const std::size_t before = left.count();
-      left.and_not(walks.step(place, direction).touched);
-      sum += walks.step(place, direction).cost * 0.5 * static_cast<double>(before + left.count());
-    }
-    return {sum / static_cast<double>(members.count()), left.count()};
+  WalkCost best_from(const Pose& base_from_tool, std::size_t beam) const {
+    return cost_of(walks.best(members, base_from_tool, beam), walks, members);
   }
 
   /// The least that any walk costs that touches all, by Dijkstra's algorithm over places and what is left there.
@@ -86,7 +79,7 @@ TEST(Walks, CostNoLessThanTheBestOfAllAndWithAWideBeamLittleMore) {
     const Walking setting(8, rng);
     for (int k = 0; k < 3; ++k) {
       const Pose at = random_place(rng);
-      const auto [cost, missed] = setting.expected(setting.walks.best(setting.members, at, beam));
+      const auto [cost, missed] = setting.best_from(at, beam);
       const double least = setting.least_expected(at);
       EXPECT_EQ(missed, 0u);
       EXPECT_GE(cost, least - 1e-9);
@@ -106,9 +99,37 @@ TEST(Walks, TouchNearlyAllPosesFromWhereverTheToolIs) {
       for (int k = 0; k < 6; ++k) {
         Pose at = random_place(rng);
         at.translation().x() -= rng.uniform(0.0, 0.2);
-        EXPECT_LE(setting.expected(setting.walks.best(setting.members, at, beam)).second, 1u);
+        EXPECT_LE(setting.best_from(at, beam).missed, 1u);
       }
     }
+}
+
+/// Who goes along a walk stays on its lattice: another one's steps would all have to be made first.
+TEST(Walks, StepsLeadFromWhereTheRobotStandsToTheNextPlaces) {
+  Rng rng(3);
+  const Walking setting(8, rng);
+  const Lattice& lattice = setting.walks.lattice();
+  std::size_t found = 0;
+  for (int i = 0; i < 40; ++i) {
+    const std::size_t place = rng.below(lattice.size());
+    const auto q = setting.on->posture(lattice.base_from_tool(place), setting.on->home());
+    if (!q) continue;
+    for (const action::MotionPtr& step : setting.walks.steps_from(*q)) {
+      ++found;
+      EXPECT_EQ(step->path.front(), *q);
+      EXPECT_TRUE(lattice.passes(step->path.back()));
+      const Vector3 end = setting.on->base_from_tool(step->path.back()).translation();
+      bool is_next = false;
+      for (std::size_t direction = 0; direction < Lattice::directions; ++direction)
+        if (const auto next = lattice.neighbour(place, direction))
+          is_next = is_next || (lattice.base_from_tool(*next).translation() - end).norm() < 0.001;
+      EXPECT_TRUE(is_next);
+    }
+    robot::JointVector elsewhere = *q;
+    elsewhere[0] += 0.1;
+    EXPECT_TRUE(setting.walks.steps_from(elsewhere).empty() || lattice.passes(elsewhere));
+  }
+  EXPECT_GT(found, 40u);
 }
 
 }  // namespace
