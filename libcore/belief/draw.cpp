@@ -10,7 +10,7 @@ namespace {
 using geometry::Vector3;
 
 constexpr std::size_t least_trial = 24;       // projections after which it is asked whether they pay:
-constexpr std::size_t pays_from = 3;          // one in so many misses the history by no more than `finest_part`
+constexpr std::size_t pays_from = 3;          // one in so many serves
 constexpr double least_near = 0.001;          // m by which a pose may miss the history and serve for planning
 constexpr double near_share = 0.15;           // of a cell's radius by which it may
 constexpr std::size_t draws_per_pose = 4;     // from cells, many of which may be ruled out
@@ -19,7 +19,7 @@ constexpr double finest_part = 0.00025;       // m: radius of the parts that pos
                                               // the history by no more serves as well as an exact one
 constexpr double least_step = -6.0;           // log2 of how much of a cell's width
 constexpr std::size_t least_share = 3;        // of the poses wanted: so many are made up from others
-constexpr double latest_brought_back = 0.2;   // of a budget
+constexpr double latest_unpaid = 0.2;         // of a budget, for bringing poses back that mostly can't be
 constexpr std::size_t unproved_share = 8;     // of them anywhere in a cell, for what no other speaks for
 constexpr std::size_t far_share = 16;         // of them in cells that are the farthest from any other pose;
 constexpr std::size_t most_compared = 30000;  // cells, if there are no more
@@ -168,9 +168,9 @@ class Draw {
 
   /// Those of an earlier state, as far as they agree with what was felt since; a part of those wanted is drawn afresh.
   void bring_back(const std::vector<Drawn>& known) {
-    for (const Drawn& one : known) {
-      if (!lacks(count_ - count_ / least_share) || deadline_.used_fraction() >= latest_brought_back) return;
-      if (const auto still = brought_back(belief_.task(), belief_.history(), one, near_)) add(*still);
+    for (std::size_t tried = 0; tried < known.size() && lacks(count_ - count_ / least_share); ++tried) {
+      if (size() * pays_from < tried && deadline_.used_fraction() >= latest_unpaid) return;
+      if (const auto still = brought_back(belief_.task(), belief_.history(), known[tried], near_)) add(*still);
     }
   }
 

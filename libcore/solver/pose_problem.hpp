@@ -18,9 +18,10 @@ namespace tactus::solver {
 class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
  public:
   /// `predictions`: of the poses. `bits`: log2 of how many tolerances the full belief spans; `cost_per_bit` in units of
-  /// cost. `nothing_met`: the target is still looked for, by walks where an upper bound is the second value. Then moves
-  /// shorter than their steps are no choices at the start, as they meet nothing that longer ones don't, nor are turns,
-  /// which walks don't make: with them a robot would rather stay where it is as long as what lies ahead seems worse.
+  /// cost. `nothing_met`: the target is still looked for, by walks where an upper bound is the second value. Then the
+  /// steps of walks from where the robot stands are choices at the start, and moves shorter than they are none, as they
+  /// meet nothing that longer ones don't, nor are turns, which walks don't make: with them a robot would rather stay
+  /// where it is as long as what lies ahead seems worse.
   PoseProblem(std::shared_ptr<const action::Task> task, std::shared_ptr<action::ActionLibrary> library,
               std::shared_ptr<Predictions> predictions, double bits, double cost_per_bit,
               SecondValue second = SecondValue::greedy, bool nothing_met = false);
