@@ -187,8 +187,9 @@ bool is_small_and_tells_nothing(const solver::Choice& choice) {
 
 /// One small motion to get to another place; not a second one, as long as there is anything else to do.
 TEST(Bounded, MakesNoTwoSmallMotionsInARowThatAreToTellNothing) {
+  constexpr int enough = 3;
   int asked = 0;
-  for (const std::uint64_t seed : {62, 66, 67, 71, 78}) {
+  for (std::uint64_t seed = 60; seed < 90 && asked < enough; ++seed) {
     Trial trial(seed, within(40, Solver::brtdp_bel));
     auto& [world, belief, planner] = trial;
     ASSERT_NO_FATAL_FAILURE(act_until_contact(planner, world, belief));
@@ -209,7 +210,7 @@ TEST(Bounded, MakesNoTwoSmallMotionsInARowThatAreToTellNothing) {
       belief.step(*answer.action, world.execute(*answer.action));
     }
   }
-  EXPECT_GT(asked, 2);
+  EXPECT_GE(asked, enough);
 }
 
 /// An attempt may meet nothing and not be the last, where the target may be deeper than it was supposed.
