@@ -60,12 +60,12 @@ belief::Belief random_belief(Kind kind, Rng& rng) {
 /// Of a belief of cells.
 std::vector<Pose> random_poses(Rng& rng) { return belief::poses_of(random_belief(Kind::particles, rng).draw(40, rng)); }
 
-/// At a belief that is so many poses, of a robot that has met something and stands at the scene's start.
+/// At a belief that is so many poses, of a robot that stands at the scene's start, and has met something or nothing.
 std::vector<Choice> weighed_at_start(const std::vector<Pose>& poses, SecondValue second,
-                                     const support::Deadline& deadline) {
+                                     const support::Deadline& deadline, bool nothing_met = false) {
   return std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
                                                std::make_shared<solver::Predictions>(task(), poses), 10.0, 0.035,
-                                               second)
+                                               second, nothing_met)
       ->start(task()->scene().start)
       ->choices(deadline);
 }
@@ -164,28 +164,32 @@ TEST(Choices, AreTheFirstOfAllOnceSomebodyCancels) {
     EXPECT_EQ(weighed_at_start(random_poses(rng), second, at_once).size(), 1u);
 }
 
+/// Eight of each while the target is looked for, three once something was met.
 TEST(Choices, AreSomeOfEveryKindWhereThereIsNoTime) {
-  constexpr std::size_t kinds = 3, few = 3;
+  constexpr std::size_t kinds = 3;
   const support::Deadline no_time(0.0, UINT64_MAX);
   Rng rng(13);
   for (int i = 0; i < 3; ++i) {
     const std::vector<Pose> poses = random_poses(rng);
-    const auto counts = [&](SecondValue second, const support::Deadline& deadline) {
-      std::array<std::size_t, kinds> of_kind{};
-      for (const Choice& choice : weighed_at_start(poses, second, deadline))
-        ++of_kind[choice.motion->kind == action::Kind::insertion ? 0 : choice.motion->anchored ? 1 : 2];
-      return of_kind;
-    };
-    const auto all = counts(SecondValue::upper_bound, support::Deadline::unlimited());
-    const auto some = counts(SecondValue::upper_bound, no_time);
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
-      EXPECT_LE(some[kind], all[kind]);
-      EXPECT_GE(some[kind], std::min<std::size_t>(all[kind], 1));  // others that are weighed tell nothing
+    for (const bool nothing_met : {true, false}) {
+      const std::size_t few = nothing_met ? 8 : 3;
+      const auto counts = [&](SecondValue second, const support::Deadline& deadline) {
+        std::array<std::size_t, kinds> of_kind{};
+        for (const Choice& choice : weighed_at_start(poses, second, deadline, nothing_met))
+          ++of_kind[choice.motion->kind == action::Kind::insertion ? 0 : choice.motion->anchored ? 1 : 2];
+        return of_kind;
+      };
+      const auto all = counts(SecondValue::upper_bound, support::Deadline::unlimited());
+      const auto some = counts(SecondValue::upper_bound, no_time);
+      for (std::size_t kind = 0; kind < kinds; ++kind) {
+        EXPECT_LE(some[kind], all[kind]);
+        EXPECT_GE(some[kind], std::min(all[kind], (few + 1) / 2));  // some of those weighed tell nothing
+      }
+      EXPECT_LE(some[0], few);
+      EXPECT_LE(some[1], few);
+      EXPECT_GT(all[1], few);
+      EXPECT_EQ(counts(SecondValue::greedy, no_time), counts(SecondValue::greedy, support::Deadline::unlimited()));
     }
-    EXPECT_LE(some[0], few);
-    EXPECT_LE(some[1], few);
-    EXPECT_GT(all[1], few);
-    EXPECT_EQ(counts(SecondValue::greedy, no_time), counts(SecondValue::greedy, support::Deadline::unlimited()));
   }
 }
 
