@@ -33,6 +33,19 @@ std::size_t count_without(const Bitset& set, const Bitset& other) {
   return count;
 }
 
+/// The place nearest to a position, of those that count, if it is nearer than `reach`.
+template <typename Counts>
+std::optional<std::size_t> nearest_place(const Lattice& lattice, const Vector3& position, double reach,
+                                         const Counts& counts) {
+  std::optional<std::size_t> nearest;
+  for (std::size_t place = 0; place < lattice.size(); ++place) {
+    if (!counts(place)) continue;
+    const double distance = (lattice.base_from_tool(place).translation() - position).norm();
+    if (distance < reach) reach = distance, nearest = place;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 Walks::Walks(std::shared_ptr<const action::Task> task, std::shared_ptr<const Lattice> lattice, Predictions& predictions)
@@ -84,15 +97,11 @@ double Walks::entry_cost(const Pose& base_from_tool, std::size_t place) const {
 }
 
 std::vector<MotionPtr> Walks::steps_from(const robot::JointVector& q) const {
-  const Vector3 tool = task_->base_from_tool(q).translation();
-  const auto away = [&](std::size_t place) { return (lattice_->base_from_tool(place).translation() - tool).norm(); };
-  std::size_t here = 0;
-  for (std::size_t place = 1; place < lattice_->size(); ++place)
-    if (away(place) < away(here)) here = place;
+  const auto any = [](std::size_t) { return true; };
+  const auto here = nearest_place(*lattice_, task_->base_from_tool(q).translation(), at_place, any);
   std::vector<MotionPtr> steps;
-  if (away(here) > at_place) return steps;
-  for (std::size_t direction = 0; direction < Lattice::directions; ++direction) {
-    const auto next = lattice_->neighbour(here, direction);
+  for (std::size_t direction = 0; here && direction < Lattice::directions; ++direction) {
+    const auto next = lattice_->neighbour(*here, direction);
     if (!next) continue;
     auto path = task_->straight_path(q, lattice_->base_from_tool(*next), task_->options().motion.step);
     if (!path || path->size() < 2) continue;
@@ -107,7 +116,7 @@ std::vector<MotionPtr> Walks::steps_from(const robot::JointVector& q) const {
 class Walks::Beam {
  public:
   Beam(const Walks& walks, const Bitset& members, std::size_t width)
-      : walks_(walks), members_(members), total_(static_cast<double>(members.count())), width_(width) {}
+      : walks_(walks), members_(members), count_(members.count()), total_(static_cast<double>(count_)), width_(width) {}
 
   Walk from(const Pose& base_from_tool) {
     enter(base_from_tool);
@@ -133,21 +142,16 @@ class Walks::Beam {
   /// Over the retreat plane to any place on it; where the tool is past it, also to the place next to it.
   void enter(const Pose& base_from_tool) {
     const Lattice& lattice = *walks_.lattice_;
-    std::size_t nearest = none;
-    double least = near_by;
-    for (std::size_t place = 0; place < lattice.size(); ++place) {
-      if (lattice.is_on_plane(place)) {
-        untouched(place, none, 0, walks_.entry_cost(base_from_tool, place));
-        continue;
-      }
-      const double distance = (lattice.base_from_tool(place).translation() - base_from_tool.translation()).norm();
-      if (distance < least) least = distance, nearest = place;
-    }
-    if (nearest != none) untouched(nearest, none, 0, walks_.entry_cost(base_from_tool, nearest));
+    const auto past_plane = [&](std::size_t place) { return !lattice.is_on_plane(place); };
+    const auto enter_at = [&](std::size_t place) {
+      untouched(place, none, 0, walks_.entry_cost(base_from_tool, place));
+    };
+    for (std::size_t place = 0; lattice.is_on_plane(place); ++place) enter_at(place);
+    if (const auto place = nearest_place(lattice, base_from_tool.translation(), near_by, past_plane)) enter_at(*place);
   }
 
   void untouched(std::size_t place, std::size_t before, std::size_t direction, double spent) {
-    stands_.push_back({place, direction, before, members_.count(), spent, spent, members_});
+    stands_.push_back({place, direction, before, count_, spent, spent, members_});
   }
 
   /// To each place by the cheapest way on which nothing is touched: only what they cost tells such ways apart, and a
@@ -167,7 +171,7 @@ class Walks::Beam {
       for (std::size_t direction = 0; direction < Lattice::directions; ++direction) {
         const Step& taken = walks_.step(stands_[from].place, direction);
         if (taken.cost >= blocked) continue;
-        if (count_without(members_, taken.touched) < members_.count()) {
+        if (count_without(members_, taken.touched) < count_) {
           enough = std::min(enough, spent + walks_.to_go_);
           continue;
         }
@@ -226,7 +230,7 @@ class Walks::Beam {
         if (taken.cost >= blocked) continue;
         Stand to{taken.to, direction, at};
         to.count = count_without(from.left, taken.touched);
-        if (to.count == members_.count()) continue;
+        if (to.count == count_) continue;
         to.spent = from.spent + taken.cost;
         to.expected = from.expected + taken.cost * 0.5 * static_cast<double>(from.count + to.count) / total_;
         if (to.expected < least_) next.push_back(std::move(to));
@@ -254,7 +258,8 @@ class Walks::Beam {
 
   const Walks& walks_;
   const Bitset& members_;
-  double total_;
+  std::size_t count_;
+  double total_;  ///< the same
   std::size_t width_;
   std::vector<Stand> stands_;
   std::vector<std::size_t> current_;
