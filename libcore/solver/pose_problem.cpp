@@ -33,6 +33,16 @@ constexpr std::size_t each_once_met = 3;      // and once something was met, whe
 constexpr double same_seat = 0.0015;          // m between seated poses that one attempt may serve
 constexpr double lever = 0.02;                // m by which a turn counts as a shift there
 
+/// Whether one of some straight moves from the same configuration ends where this one does.
+bool is_among(const Motion& move, const std::vector<MotionPtr>& moves) {
+  constexpr double same_end = 0.002;  // m
+  const auto end = [](const Motion& motion) -> Vector3 {
+    return motion.bodies.base_from_body(motion.path.size() - 1, 0).translation();
+  };
+  return std::any_of(moves.begin(), moves.end(),
+                     [&](const MotionPtr& other) { return (end(*other) - end(move)).norm() < same_end; });
+}
+
 std::uint64_t salt_of(const JointVector& q) { return action::path_id({q}); }
 
 }  // namespace
@@ -71,10 +81,13 @@ class PoseState : public BeliefState {
 
   Kinds considered() const {
     Kinds kinds;
-    if (at_start_ && problem_->walk_) kinds.push_back(problem_->walk_->steps_from(q_));
-    kinds.push_back(problem_->library_->primitives_at(q_));
-    if (at_start_)
-      std::erase_if(kinds.back(), [&](const MotionPtr& motion) { return problem_->leads_nowhere(*motion); });
+    std::vector<MotionPtr> primitives = problem_->library_->primitives_at(q_);
+    if (at_start_) std::erase_if(primitives, [&](const MotionPtr& motion) { return problem_->leads_nowhere(*motion); });
+    if (at_start_ && problem_->walk_) {
+      kinds.push_back(problem_->walk_->steps_from(q_));
+      std::erase_if(primitives, [&](const MotionPtr& motion) { return is_among(*motion, kinds.back()); });
+    }
+    kinds.push_back(std::move(primitives));
     const bool has_met = !problem_->nothing_met_;
     if (at_start_ && has_met) kinds.push_back(problem_->near_pokes(q_));
     const std::size_t attempts = at_start_

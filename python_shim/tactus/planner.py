@@ -87,8 +87,8 @@ class Planner(Object):
         """What is not given is as the scenario says.
 
         A query ends when the budget in ``seconds`` or the one in ``expansions`` is spent; with one of them given, the other is without
-        limit. Expansions alone, and the same ``seed``, give the same actions on every machine. With ``brtdp-bel`` it takes half a second to make the motions for the
-        first query, and with a budget in seconds one to two, as that query is rehearsed. Raises `InvalidArgument`."""
+        limit. Expansions alone, and the same ``seed``, give the same actions on every machine. With ``brtdp-bel`` it takes half a second to
+        make the motions for the first query, and with a budget in seconds one to two, as that query is rehearsed. Raises `InvalidArgument`."""
         options = planner_options(scenario, solver=solver, seconds=seconds, expansions=expansions, epsilon=epsilon,
                                   horizon=horizon, seed=seed)
         super().__init__(self._made_by("tactus_planner_create", PlannerHandle, scenario.handle, ctypes.byref(options)))

@@ -13,7 +13,6 @@ namespace {
 using support::Bitset;
 
 constexpr double seconds = 0.2;
-constexpr double pitch = 0.06;        // m, as the planner has it
 constexpr std::size_t others = 1000;  // poses that a walk was not laid out for
 constexpr std::size_t beams[] = {6, 24, 96};
 constexpr std::size_t samples[] = {120, 480};
@@ -35,7 +34,7 @@ std::vector<Row> walks(const std::string& name, const Options& options) {
   const std::shared_ptr<const action::Task> task =
       scenario::load(TACTUS_SOURCE_DIR "/examples/scenarios/" + name + ".yaml")->task;
   const robot::JointVector& q = task->scene().start;
-  const auto lattice = std::make_shared<const action::Lattice>(*task, q, pitch);
+  const auto lattice = action::ActionLibrary(*task).lattice_through(q);
   support::Rng rng(options.seed);
   solver::Predictions other_poses = drawn(task, others, rng);
   const solver::Walks elsewhere(task, lattice, other_poses);
