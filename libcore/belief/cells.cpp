@@ -112,7 +112,7 @@ double CellBelief::weight(const Cell& cell) const {
 double CellBelief::weight() const { return weighed_.empty() ? volume() : weighed_.back(); }
 
 void CellBelief::weigh() {
-  if (!weighs_) return;
+  if (grid_ && !weighs_) return weighed_.clear();
   weighed_.assign(grid_ ? grid_->members().words().size() : cells_.size(), 0.0);
   for (std::size_t i = 0; i < cells_.size(); ++i) weighed_[i] = weight(cells_[i]);
   if (grid_)
@@ -186,14 +186,7 @@ Cell CellBelief::draw_weighed(support::Rng& rng) const {
   return drawn;
 }
 
-Cell CellBelief::draw_cell(support::Rng& rng) const {
-  if (!weighed_.empty()) return draw_weighed(rng);
-  if (grid_) return any_cell(rng);
-  double left = rng.uniform() * volume();
-  for (const Cell& cell : cells_)
-    if ((left -= volume(cell)) <= 0.0) return cell;
-  return cells_.back();
-}
+Cell CellBelief::draw_cell(support::Rng& rng) const { return weighed_.empty() ? any_cell(rng) : draw_weighed(rng); }
 
 PoseVector CellBelief::draw_in(const Cell& cell, support::Rng& rng) const {
   const PoseVector half = half_width(cell);

@@ -129,7 +129,8 @@ class CellBelief {
   std::optional<CellGrid> grid_;
   std::vector<Cell> cells_;  ///< without a grid
   bool weighs_ = false;      ///< not by volume alone
-  /// Where it does: weight of the cells up to each one, or up to each word of the grid's members.
+  /// Weight of the cells of the list up to each one, or up to each word of the grid's members; empty where those weigh
+  /// the same.
   std::vector<double> weighed_;
 };
 

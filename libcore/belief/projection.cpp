@@ -8,13 +8,14 @@ namespace {
 
 constexpr int steps = 12;
 constexpr std::size_t looks = 3;          // at waypoints along a stretch that should be free
-constexpr double least_delay = 0.002;     // m by which a contact comes too early to be put off
-constexpr double close_enough = 0.00005;  // m
+constexpr double least_delay = 0.002;     // m by which a contact comes too early to be put off:
+constexpr double least_depth = 0.15;      // of that; a robot that comes no deeper only grazes the target
+constexpr double close_enough = 0.00001;  // m
 constexpr double clear_by = 0.00005;      // m, where the robot was free
-constexpr int first_doubt = 3;            // step from which on the demands should get smaller
-constexpr double hopeless = 2.0;          // times the worst demand of the step before
+constexpr double gain = 0.9;              // of the worst demand so far: steps that leave more gain nothing;
+constexpr int patience = 3;               // so many in a row, and it is given up
 constexpr double least_miss = 0.0001;     // m, of a pose that is not exact
-constexpr double damping = 1e-8;          // m^2
+constexpr double damping = 0.2;           // 1/m^2, where several demands say the same
 constexpr double longest_shift = 0.02;    // m in one step
 
 using Row = Eigen::Matrix<double, 1, 6>;
@@ -41,10 +42,12 @@ Row derivative(const Task& task, const PoseVector& v, const Pose& base_from_targ
 struct Demands {
   std::vector<Row> rows;
   std::vector<double> amounts;
+  std::vector<double> leeways;  ///< m by which what comes of it may be off
 
-  void add(const Row& row, double amount) {
+  void add(const Row& row, double amount, double leeway) {
     rows.push_back(row);
     amounts.push_back(amount);
+    leeways.push_back(leeway);
   }
   double largest() const {
     double most = 0.0;
@@ -58,24 +61,37 @@ Vector3 carried(const Trace& trace, std::size_t from, std::size_t to, const Vect
   return trace.bodies.base_from_body(to, 0) * (trace.bodies.base_from_body(from, 0).inverse() * base_point);
 }
 
+/// Where the robot is the deepest in the target, looking at a few of the waypoints from `hit` to the contact.
+contact::Nearest deepest_from(const Task& task, const Trace& trace, const Pose& base_from_target, std::size_t hit) {
+  const std::size_t stride = std::max<std::size_t>(1, (trace.touch - hit) / looks);
+  contact::Nearest deepest;
+  for (std::size_t i = hit; i < trace.touch; i += stride) {
+    const contact::Nearest at = task.target_contact().nearest(trace.bodies, i, base_from_target);
+    if (at.distance < deepest.distance) deepest = at;
+  }
+  return deepest;
+}
+
 /// A contact that comes much too early, at `hit`: the target goes on by what the robot does from there to the stop.
-/// Moved the shortest way out instead, it would be passed at the side. False if that is not the case.
-bool add_delay(const Task& task, const Trace& trace, const Pose& base_from_target, std::size_t hit, Demands& demands) {
+/// Moved the shortest way out instead, it would be passed at the side. False if that is not the case, or the robot only
+/// grazes it on a long way, and comes no deeper than `depth`.
+bool add_delay(const Task& task, const Trace& trace, const Pose& base_from_target, std::size_t hit, double depth,
+               Demands& demands) {
   const contact::Nearest at_hit = task.target_contact().nearest(trace.bodies, hit, base_from_target);
   const Vector3 there = base_from_target * at_hit.point;
   const Vector3 way = carried(trace, hit, trace.bodies.size() - 1, there) - there;
   const double length = way.norm();
-  if (length < least_delay) return false;
+  if (length < least_delay || depth < least_depth * length) return false;
   Row row = Row::Zero();
   for (int d = 0; d < 3; ++d)
     if (task.scene().prior.width[d] > 0.0) row[d] = way[d] / length;
   if (row.norm() < 0.5) return false;
-  demands.add(row, length);
+  demands.add(row, length, least_delay);
   return true;
 }
 
-/// In touch at the stop: hardly, or half as deep as it may be if the robot was free until just before.
-void add_touch(const Task& task, const Trace& trace, const PoseVector& v, const Pose& base_from_target, bool to_middle,
+/// In touch at the stop: half as deep as it may be if the robot was free until just before.
+void add_touch(const Task& task, const Trace& trace, const PoseVector& v, const Pose& base_from_target,
                Demands& demands) {
   const std::size_t last = trace.bodies.size() - 1;
   const contact::Nearest at_stop = task.target_contact().nearest(trace.bodies, last, base_from_target);
@@ -83,48 +99,38 @@ void add_touch(const Task& task, const Trace& trace, const PoseVector& v, const 
   const Vector3 there = base_from_target * at_stop.point;
   const Vector3 last_way = there - carried(trace, last, trace.touch - 1, there);
   const double deepest = std::abs((base_from_target.linear() * at_stop.gradient).dot(last_way));
-  const double middle = 0.5 * std::min(deepest, task.options().stop_tolerance);
-  const double depth = to_middle ? std::max(close_enough, middle) : close_enough;
+  const double depth = std::max(close_enough, 0.5 * std::min(deepest, task.options().stop_tolerance));
   const double wanted = std::clamp(at_stop.distance, -depth - trace.travel, -depth);
   if (wanted != at_stop.distance)
-    demands.add(derivative(task, v, base_from_target, at_stop), wanted - at_stop.distance);
+    demands.add(derivative(task, v, base_from_target, at_stop), wanted - at_stop.distance, depth);
 }
 
-/// Out of the way where the robot was free, from `hit` on.
-void add_clearance(const Task& task, const Trace& trace, const PoseVector& v, const Pose& base_from_target,
-                   std::size_t hit, Demands& demands) {
-  const std::size_t stride = std::max<std::size_t>(1, (trace.touch - hit) / looks);
-  contact::Nearest deepest;
-  for (std::size_t i = hit; i < trace.touch; i += stride) {
-    const contact::Nearest at = task.target_contact().nearest(trace.bodies, i, base_from_target);
-    if (at.distance < deepest.distance) deepest = at;
-  }
-  demands.add(derivative(task, v, base_from_target, deepest), clear_by - deepest.distance);
-}
-
-Demands demands_of(const Task& task, const std::vector<const Trace*>& history, const PoseVector& v, bool to_middle) {
+Demands demands_of(const Task& task, const std::vector<const Trace*>& history, const PoseVector& v) {
   const Pose pose = geometry::pose_from(v);
   Demands demands;
   for (const Trace* trace : history) {
     const auto hit = task.target_contact().first_within(trace->bodies, pose, 0.0, 0);
-    const bool too_early = hit && *hit < trace->touch;
-    if (trace->contact && too_early && add_delay(task, *trace, pose, *hit, demands)) continue;
-    if (trace->contact) add_touch(task, *trace, v, pose, to_middle, demands);
-    if (too_early) add_clearance(task, *trace, v, pose, *hit, demands);
+    if (hit && *hit < trace->touch) {
+      const contact::Nearest deepest = deepest_from(task, *trace, pose, *hit);
+      if (trace->contact && add_delay(task, *trace, pose, *hit, -deepest.distance, demands)) continue;
+      demands.add(derivative(task, v, pose, deepest), clear_by - deepest.distance, clear_by);
+    }
+    if (trace->contact) add_touch(task, *trace, v, pose, demands);
   }
   return demands;
 }
 
-/// The least change of the pose that meets the demands in the sense of least squares, angles weighed by the target's
-/// size.
+/// The least change of the pose that meets the demands in the sense of least squares, each in units of its leeway, and
+/// angles weighed by the target's size.
 PoseVector moved(const PoseVector& v, const Demands& demands, double lever) {
   const auto count = static_cast<Eigen::Index>(demands.rows.size());
   Eigen::MatrixXd a(count, 6);
   Eigen::VectorXd b(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    a.row(i) = demands.rows[static_cast<std::size_t>(i)];
+    const auto demand = static_cast<std::size_t>(i);
+    a.row(i) = demands.rows[demand] / demands.leeways[demand];
     a.row(i).tail<3>() /= lever;
-    b[i] = demands.amounts[static_cast<std::size_t>(i)];
+    b[i] = demands.amounts[demand] / demands.leeways[demand];
   }
   const Eigen::MatrixXd normal = a * a.transpose() + damping * Eigen::MatrixXd::Identity(count, count);
   Eigen::Matrix<double, 6, 1> change = a.transpose() * normal.ldlt().solve(b);
@@ -151,14 +157,16 @@ std::optional<Projection> projected(const Task& task, const std::vector<const Tr
   const double lever = 0.5 * task.target_diameter();
   std::optional<Projection> nearest;
   PoseVector at = inside(task.scene().prior, seed);
-  double before = 0.0;
+  double best = 1e300;
+  int in_vain = 0;
   for (int step = 0; step < steps; ++step) {
     if (reproduces(task, history, geometry::pose_from(at))) return Projection{at, 0.0};
-    const Demands demands = demands_of(task, history, at, step % 2 == 0);
+    const Demands demands = demands_of(task, history, at);
     const double worst = demands.largest();
     if (worst < (nearest ? nearest->miss : near)) nearest = Projection{at, std::max(worst, least_miss)};
-    if (step >= first_doubt && worst > hopeless * before) break;
-    before = worst;
+    in_vain = worst < gain * best ? 0 : in_vain + 1;
+    if (in_vain >= patience) break;
+    best = std::min(best, worst);
     at = inside(task.scene().prior, moved(at, demands, lever));
   }
   return nearest;

@@ -13,6 +13,8 @@ constexpr double field_spacing = 0.001;
 constexpr double field_border = 0.01;
 constexpr std::size_t field_samples = 1'000'000;
 constexpr double facet_reach = 0.002;  // m: the radius of the largest piece that needs no tree of triangles
+constexpr std::size_t candidates = 8;  // pieces, by their middles, among which the nearest point is looked for;
+constexpr std::size_t looked_at = 3;   // of them, by their corners, are looked at closely
 constexpr int halvings = 4;            // of a piece in which the nearest point is looked for
 constexpr double box_slack = 2e-6;     // m, of boxes and triangles compared in single precision
 
@@ -233,14 +235,14 @@ ContactInterval TargetContact::first_contact_interval(const BodyPath& path, cons
           first_certain_contact(path, base_from_target, radius).value_or(path.size())};
 }
 
-/// The pieces that came nearest to the target, by their middles and corners.
+/// The pieces whose middles come nearest to the target.
 struct TargetContact::Closest {
   struct Entry {
     double distance = 1e300;
     const Piece* piece = nullptr;
     Pose target_from_body = Pose::Identity();
   };
-  std::array<Entry, 3> entries;  ///< the nearest first
+  std::array<Entry, candidates> entries;  ///< the nearest first
 
   double bound() const { return entries.back().distance; }
   void add(const Entry& entry) {
@@ -248,6 +250,13 @@ struct TargetContact::Closest {
     entries.back() = entry;
     for (std::size_t i = entries.size() - 1; i > 0 && entries[i].distance < entries[i - 1].distance; --i)
       std::swap(entries[i], entries[i - 1]);
+  }
+  void sort_by_corners(const TargetContact& contact) {
+    for (Entry& entry : entries)
+      if (entry.piece != nullptr)
+        for (const Vector3& corner : entry.piece->corners)
+          entry.distance = std::min(entry.distance, contact.estimate(entry.target_from_body * corner));
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.distance < b.distance; });
   }
 };
 
@@ -257,13 +266,8 @@ double TargetContact::estimate(const Vector3& p) const {
 }
 
 void TargetContact::look_at(const Piece& piece, const Pose& target_from_body, Closest& closest) const {
-  double least = 1e300;
-  const auto consider = [&](const Vector3& p) {
-    if (field_.bounds(p).lower < std::min(least, closest.bound())) least = std::min(least, estimate(p));
-  };
-  consider(target_from_body * piece.centre);
-  for (const Vector3& corner : piece.corners) consider(target_from_body * corner);
-  closest.add({least, &piece, target_from_body});
+  const Vector3 middle = target_from_body * piece.centre;
+  if (field_.bounds(middle).lower < closest.bound()) closest.add({estimate(middle), &piece, target_from_body});
 }
 
 /// The deepest point of a piece, or the nearest, looked for where its quarters' corners are.
@@ -299,11 +303,13 @@ void TargetContact::nearest(const Body& body, const Pose& target_from_body, Clos
     std::array<std::pair<float, std::int32_t>, kernel::lanes> open;
     std::size_t count = 0;
     for (int lane = 0; lane < kernel::lanes; ++lane)
-      if (block.half[0][lane] > kernel::no_part && lower[lane] - block.radius[lane] < closest.bound())
-        open[count++] = {lower[lane] - block.radius[lane], block.next[lane]};
+      if (const float least = lower[lane] - (block.next[lane] < 0 ? 0.0F : block.radius[lane]);
+          block.half[0][lane] > kernel::no_part && least < closest.bound())
+        open[count++] = {least, block.next[lane]};
     std::sort(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count), std::greater<>());
     for (std::size_t k = count; k-- > 0;)
-      if (open[k].second < 0) look_at(body.balls().pieces()[~open[k].second], target_from_body, closest);
+      if (open[k].second < 0 && open[k].first < closest.bound())
+        look_at(body.balls().pieces()[~open[k].second], target_from_body, closest);
     for (std::size_t k = 0; k < count; ++k)
       if (open[k].second >= 0 && open[k].first < closest.bound()) stack[depth++] = open[k];
   }
@@ -318,8 +324,10 @@ Nearest TargetContact::nearest(const BodyPath& path, std::size_t waypoint, const
       nearest(bodies_->body(body), target_from_base * path.base_from_body(waypoint, body), closest);
   }
   Nearest result;
-  for (const Closest::Entry& entry : closest.entries)
-    if (entry.piece != nullptr) look_closely(*entry.piece, entry.target_from_body, result);
+  closest.sort_by_corners(*this);
+  for (std::size_t i = 0; i < looked_at; ++i)
+    if (const Closest::Entry& entry = closest.entries[i]; entry.piece != nullptr)
+      look_closely(*entry.piece, entry.target_from_body, result);
   if (result.distance < field_border) result.distance = field_.exact(result.point);
   result.gradient = field_.gradient(result.point);
   return result;

@@ -71,8 +71,8 @@ class TargetContact {
   }
 
   /// The deepest or nearest point at a waypoint, of the bodies near the region, found to a tenth of a millimetre or so:
-  /// by the pieces whose corners and middles come nearest. Its distance is exact, but another point may be nearer:
-  /// nothing sound may rest on it. Some 20 us.
+  /// by the pieces whose middles come nearest, and of these the corners. Its distance is exact below a centimetre, but
+  /// another point may be nearer: nothing sound may rest on it. Some 10 us.
   Nearest nearest(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const;
 
   const Mesh& target() const { return target_; }

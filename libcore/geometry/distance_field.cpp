@@ -46,11 +46,10 @@ DistanceBounds DistanceField::bounds(const Vector3& p) const {
   bool on_lattice = true;
   for (int d = 0; d < 3; ++d) {
     const double scaled = (p[d] - origin_[d]) * inverse_spacing_;
-    const double nearest = std::clamp(std::floor(scaled + 0.5), 0.0, last_[d]);
-    const double offset = scaled - nearest;
+    index[d] = static_cast<int>(std::clamp(scaled + 0.5, 0.0, last_[d]));
+    const double offset = scaled - index[d];
     on_lattice = on_lattice && std::abs(offset) <= 0.5001;
     squared += offset * offset;
-    index[d] = static_cast<int>(nearest);
   }
   const std::size_t at =
       static_cast<std::size_t>(index[0]) +
@@ -78,7 +77,7 @@ DistanceField::Cell DistanceField::cell(const Vector3& p) const {
   std::size_t stride = 1;
   for (int d = 0; d < 3; ++d) {
     const double scaled = (p[d] - origin_[d]) * inverse_spacing_;
-    const double low = std::clamp(std::floor(scaled), 0.0, last_[d] - 1.0);
+    const int low = static_cast<int>(std::clamp(scaled, 0.0, last_[d] - 1.0));
     cell.part[d] = scaled - low;
     cell.lowest += static_cast<std::size_t>(low) * stride;
     cell.step[d] = stride;
@@ -127,8 +126,10 @@ Vector3 DistanceField::gradient(const Vector3& p) const {
 }
 
 double DistanceField::exact(const Vector3& p) const {
-  const double distance = tree_.distance(p);
-  return tree_.contains(p) ? -distance : distance;
+  const DistanceBounds known = narrow_bounds(p);
+  const double distance = tree_.distance(p, std::max(-known.lower, known.upper));
+  const bool is_inside = known.upper < 0.0 || (known.lower <= 0.0 && tree_.contains(p));
+  return is_inside ? -distance : distance;
 }
 
 }  // namespace tactus::geometry

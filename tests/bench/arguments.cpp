@@ -25,8 +25,9 @@ std::vector<Work> works_of(const std::string& suite) {
   if (suite == "contact") return contact_works();
   if (suite == "voxels") return voxel_works();
   if (suite == "belief") return belief_works();
+  if (suite == "poses") return pose_works();
   if (suite == "walks") return walk_works();
-  throw UsageError("found '" + suite + "', expected contact, voxels, belief or walks");
+  throw UsageError("found '" + suite + "', expected contact, voxels, belief, poses or walks");
 }
 
 std::vector<Work> chosen(const std::vector<Work>& works, const std::string& names) {
@@ -46,7 +47,7 @@ std::vector<Work> chosen(const std::vector<Work>& works, const std::string& name
 }  // namespace
 
 const char* const usage =
-    "usage: tactus-bench contact|voxels|belief|walks [options]\n"
+    "usage: tactus-bench contact|voxels|belief|poses|walks [options]\n"
     "\n"
     "Times tactus against its baseline (brute-force FCL for contact) in one run, on the same pairs, one thread each, "
     "and\n"
@@ -88,7 +89,7 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
     else
       arguments.suite = word;
   }
-  if (arguments.suite.empty()) throw UsageError("expected contact, voxels, belief or walks; --help tells more");
+  if (arguments.suite.empty()) throw UsageError("expected contact, voxels, belief, poses or walks; --help tells more");
   arguments.works = works_of(arguments.suite);
   if (arguments.works.empty()) throw UsageError(arguments.suite + ": not there yet");
   if (some) arguments.works = chosen(arguments.works, names);

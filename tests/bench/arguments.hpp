@@ -16,7 +16,7 @@ class UsageError : public std::runtime_error {
 
 struct Arguments {
   bool help = false;
-  std::string suite;        ///< contact, voxels or belief
+  std::string suite;        ///< contact, voxels, belief, poses or walks
   std::string json;         ///< file, "-" for stdout, empty for none
   std::vector<Work> works;  ///< the chosen ones
   Options options;

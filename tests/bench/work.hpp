@@ -26,6 +26,7 @@ std::vector<Work> contact_works();  ///< with those on the lattice at the end
 std::vector<Work> lattice_works();
 std::vector<Work> voxel_works();
 std::vector<Work> belief_works();
+std::vector<Work> pose_works();
 std::vector<Work> walk_works();
 
 }  // namespace tactus::bench
