@@ -21,6 +21,7 @@ constexpr double fixed_cost = 0.02;       // m, of the rate rule
 constexpr std::size_t few_members = 12;   // that may be tried one after another
 constexpr std::size_t many_members = 30;  // for which the way to a motion counts in its choice
 constexpr double place_pitch = 0.001;     // m
+constexpr double near_back = 0.03;        // m before anything can be met, as far as near pokes go back
 
 /// To tell apart where the tool is.
 std::uint64_t place_of(const Pose& base_from_tool) {
@@ -80,9 +81,20 @@ double RatePolicy::lead(const Pose& base_from_tool, const Pose& base_from_start)
   return task_->options().cost.action + action::transit_cost(*task_, base_from_tool, base_from_start);
 }
 
-/// Of getting to the first motion, or to the end of the first attempt.
+/// Of getting to the first motion, or to the end of the first attempt. Where a motion begins where the tool is, rather
+/// than on the retreat plane, its first part is saved.
 double RatePolicy::first_cost(const Pose& base_from_tool, const Plan& plan) const {
-  return plan.attempt ? attempt_cost(base_from_tool, *plan.attempt) : lead(base_from_tool, plan.base_from_start);
+  if (plan.attempt) return attempt_cost(base_from_tool, *plan.attempt);
+  return std::min(lead(base_from_tool, plan.base_from_start),
+                  near_cost(base_from_tool, plan.base_from_near) - plan.until_near);
+}
+
+/// As for a near poke: back, and straight across.
+double RatePolicy::near_cost(const Pose& base_from_tool, const Pose& base_from_near) const {
+  const action::CostWeights& weights = task_->options().cost;
+  const double across = (base_from_near.translation() - base_from_tool.translation()).norm();
+  return weights.action + weights.metre * (near_back + across) +
+         weights.radian * geometry::angle_between(base_from_tool, base_from_near);
 }
 
 /// Over the retreat plane or near by, whichever is cheaper.
@@ -171,6 +183,14 @@ void RatePolicy::for_each_group(std::size_t motion, const Members& members, Visi
   }
 }
 
+/// The last waypoint from which a motion still has `near_back` to go to another one; the first if there is none.
+std::size_t RatePolicy::place_before(std::size_t motion, std::size_t waypoint) const {
+  const std::vector<double>& cost = motions_[motion]->cost_to;
+  const double least = cost_to(motion, waypoint) - near_back * task_->options().cost.metre;
+  const auto after = std::upper_bound(cost.begin(), cost.end(), least);
+  return after == cost.begin() ? 0 : static_cast<std::size_t>(after - cost.begin()) - 1;
+}
+
 double RatePolicy::cost_to(std::size_t motion, std::size_t waypoint) const {
   const std::vector<double>& cost = motions_[motion]->cost_to;
   return cost[std::min(waypoint, cost.size() - 1)];
@@ -202,7 +222,12 @@ RatePolicy::Plan RatePolicy::probing(const Members& members, const Pose* base_fr
     std::transform(begin, end, std::back_inserter(group), [](const auto& entry) { return entry.second; });
     std::sort(group.begin(), group.end());
   });
-  Plan plan{motions_[best]->base_from_start, nullptr, std::vector<double>(members.size()), 0.0};
+  const std::size_t near = place_before(best, groups.front().first);
+  Plan plan{.base_from_start = motions_[best]->base_from_start,
+            .base_from_near = motions_[best]->bodies.base_from_body(near, 0),
+            .until_near = cost_to(best, near),
+            .costs = std::vector<double>(members.size()),
+            .cost = 0.0};
   for (const auto& [waypoint, group] : groups) {
     const std::vector<double> then = costs(group, motions_[best]->bodies.base_from_body(waypoint - 1, 0));
     auto member = members.begin();

@@ -21,8 +21,8 @@ struct Attempt {
 /// What a simple policy costs that always ends: the motion with the most information per cost, again and again, until
 /// attempts at the poses that are left, one after another, are cheaper. It chooses among anchored motions; where few
 /// poses are left, without regard to where the robot is, so that a set of them is weighed once. An upper bound of the
-/// value of a belief on these poses, as far as the ways over the retreat plane, those from attempt to attempt, and the
-/// attempts are free. One thread.
+/// value of a belief on these poses, as far as the ways over the retreat plane, those near by to a motion or an
+/// attempt, and the attempts are free. One thread.
 class RatePolicy {
  public:
   using Members = std::vector<std::size_t>;  ///< poses, ascending
@@ -46,6 +46,8 @@ class RatePolicy {
  private:
   struct Plan {
     geometry::Pose base_from_start = geometry::Pose::Identity();  ///< of the first motion
+    geometry::Pose base_from_near = geometry::Pose::Identity();   ///< on it, shortly before anything can be met
+    double until_near = 0.0;                                      ///< from the one to the other, in units of cost
     const Attempt* attempt = nullptr;                             ///< the first motion, if it is one
     std::vector<double> costs;                                    ///< from there on, or from its end, by member
     double cost = 1e300;                                          ///< their mean
@@ -56,6 +58,7 @@ class RatePolicy {
   const Plan& plan(const Members& members, const geometry::Pose& base_from_tool);
   double first_cost(const geometry::Pose& base_from_tool, const Plan& plan) const;
   double attempt_cost(const geometry::Pose& base_from_tool, const Attempt& attempt) const;
+  double near_cost(const geometry::Pose& base_from_tool, const geometry::Pose& base_from_near) const;
   Plan attempts_at(const Members& members) const;
   Plan probing(const Members& members, const geometry::Pose* base_from_tool);
   double lead(const geometry::Pose& base_from_tool, const geometry::Pose& base_from_start) const;
@@ -65,6 +68,7 @@ class RatePolicy {
   void for_each_group(std::size_t motion, const Members& members, Visit&& visit);
   double rate_of(std::size_t motion, const Members& members, const geometry::Pose* base_from_tool);
   double cost_to(std::size_t motion, std::size_t waypoint) const;
+  std::size_t place_before(std::size_t motion, std::size_t waypoint) const;
 
   struct HashOf {
     std::size_t operator()(const support::Hash128& h) const { return h.low; }
