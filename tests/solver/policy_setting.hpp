@@ -49,16 +49,16 @@ inline Attempt attempt_at(const Pose& pose) {
 /// A policy on some poses of which an attempt serves its own alone, and what it rests on.
 struct Setting {
   Setting(std::size_t count, Rng& rng, std::shared_ptr<const action::Task> of = task())
-      : on(of), predictions(of, random_poses(count, rng, 1.0, *of)) {
+      : on(of),
+        probes(action::probes(*of, of->frame().region, of->home(), 3)),
+        predictions(of, random_poses(count, rng, 1.0, *of)) {
     for (std::size_t i = 0; i < count; ++i) {
       attempts.push_back(attempt_at(predictions.poses()[i]));
       served.emplace_back(count);
       served.back().set(i);
     }
   }
-  RatePolicy policy() {
-    return {on, predictions, action::probes(*on, on->frame().region, on->home(), 3), attempts, served, dimensions};
-  }
+  RatePolicy policy() { return {on, predictions, probes, attempts, served, dimensions}; }
   double straight(const Pose& base_from_tool, std::size_t member) const {
     const Pose& seated = attempts[member].base_from_seated;
     return task()->options().cost.action + (seated.translation() - base_from_tool.translation()).norm() +
@@ -66,6 +66,7 @@ struct Setting {
   }
 
   std::shared_ptr<const action::Task> on;
+  std::vector<action::MotionPtr> probes;
   solver::Predictions predictions;
   std::vector<Attempt> attempts;
   std::vector<Bitset> served;

@@ -20,17 +20,95 @@ using solver::SecondValue;
 using solver::ValueType;
 using support::Deadline;
 
+const action::CostWeights& weights() { return task()->options().cost; }
+
+double plain_attempt(const Pose& at, const Attempt& attempt) {
+  const double over_plane = action::transit_cost(*task(), at, attempt.base_from_start) + attempt.cost;
+  const double near = action::near_insertion_cost(*task(), at, attempt.base_from_seated, attempt.axis());
+  return weights().action + std::min(over_plane, near);
+}
+
 TEST(RatePolicy, OfOnePoseIsTheCheaperWayToASeat) {
   Rng rng(1);
   Setting setting(20, rng);
   RatePolicy policy = setting.policy();
   for (std::size_t member = 0; member < 20; ++member) {
     const Pose at = random_place(rng);
-    const Attempt& attempt = setting.attempts[member];
-    const double over_plane = action::transit_cost(*task(), at, attempt.base_from_start) + attempt.cost;
-    const double near = action::near_insertion_cost(*task(), at, attempt.base_from_seated, attempt.axis());
-    EXPECT_NEAR(policy.cost({member}, at), task()->options().cost.action + std::min(over_plane, near), 1e-12);
+    EXPECT_NEAR(policy.cost({member}, at), plain_attempt(at, setting.attempts[member]), 1e-12);
   }
+}
+
+/// To a probe's start on the retreat plane, or near by to where it has three centimetres to go until `touch`: less what
+/// is saved of it then.
+double plain_way(const Pose& at, const action::Motion& probe, std::size_t touch) {
+  const double over_plane = weights().action + action::transit_cost(*task(), at, probe.base_from_start);
+  std::size_t near = std::min(touch, probe.cost_to.size() - 1);
+  const double end = probe.cost_to[near];
+  while (near > 0 && probe.cost_to[near] > end - 0.03 * weights().metre) --near;
+  const Pose& there = probe.bodies.base_from_body(near, 0);
+  const double by = weights().metre * (0.03 + (there.translation() - at.translation()).norm()) +
+                    weights().radian * geometry::angle_between(at, there);
+  return std::min(over_plane, weights().action + by - probe.cost_to[near]);
+}
+
+/// One after another.
+double plain_attempts(const Setting& setting, const Members& members, const Pose& at) {
+  double cost = 0.0;
+  Pose from = at;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Attempt& attempt = setting.attempts[members[i]];
+    const double still = static_cast<double>(members.size() - i) / static_cast<double>(members.size());
+    cost += still * plain_attempt(from, attempt);
+    from = attempt.base_from_seated;
+  }
+  return cost;
+}
+
+/// The probe with the most bits per cost, and what it leaves, or attempts if those are cheaper.
+double plain_cost(Setting& setting, const Members& members, const Pose& at) {
+  constexpr std::size_t few = 12;
+  Bitset set(setting.attempts.size());
+  for (const std::size_t member : members) set.set(member);
+  action::MotionPtr best;
+  std::vector<solver::Group> parts;
+  double highest = 1e-9;
+  const auto cost_to = [](const action::Motion& probe, const solver::Group& group) {
+    return probe.cost_to[std::min(group.first, probe.cost_to.size() - 1)];
+  };
+  const auto share = [&](const solver::Group& group) {
+    return static_cast<double>(group.poses.size()) / static_cast<double>(members.size());
+  };
+  for (const action::MotionPtr& probe : setting.probes) {
+    const auto least = setting.predictions.least_told_apart(probe, set, dimensions);
+    const std::vector<solver::Group> groups = setting.predictions.split(probe, set, least);
+    double bits = 0.0, cost = 0.02;
+    for (const solver::Group& group : groups) {
+      bits -= share(group) * std::log2(share(group));
+      cost += share(group) * cost_to(*probe, group);
+    }
+    if (bits / cost > highest) highest = bits / cost, best = probe, parts = groups;
+  }
+  if (!best) return plain_attempts(setting, members, at);
+  double probing = plain_way(at, *best, parts.front().first);
+  for (const solver::Group& part : parts)
+    probing += share(part) *
+               (cost_to(*best, part) + plain_cost(setting, part.poses, best->bodies.base_from_body(part.first - 1, 0)));
+  return members.size() > few ? probing : std::min(probing, plain_attempts(setting, members, at));
+}
+
+TEST(RatePolicy, CostsWhatTheSameCostsPlainly) {
+  Rng rng(8);
+  Setting setting(28, rng);
+  RatePolicy policy = setting.policy();
+  int probed = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Members members = random_members(28, rng);
+    const Pose at = random_place(rng);
+    const double cost = policy.cost(members, at);
+    EXPECT_NEAR(cost, plain_cost(setting, members, at), 1e-9) << members.size() << " poses";
+    probed += cost < plain_attempts(setting, members, at) - 1e-9;
+  }
+  EXPECT_GT(probed, 5);
 }
 
 TEST(RatePolicy, NeverCostsLessThanGoingStraightToEachPoseAndOnAverageWhatItCostsByPose) {
