@@ -4,7 +4,6 @@
 namespace tactus::action {
 namespace {
 
-constexpr double back = 0.03;            // m
 constexpr double aside[] = {0.04, 0.1};  // m
 constexpr double beyond = 0.1;           // m farther in than the tool was
 
@@ -21,7 +20,7 @@ std::optional<JointPath> gone_on(const Task& task, JointPath path, const Vector3
 
 MotionPtr near_poke(const Task& task, const JointPath& retreat, const Vector3& way, const Vector3& in) {
   auto path = gone_on(task, retreat, way);
-  if (path) path = gone_on(task, std::move(*path), (back + beyond) * in, true);
+  if (path) path = gone_on(task, std::move(*path), (near_back + beyond) * in, true);
   if (!path) return nullptr;
   Motion motion;
   motion.kind = Kind::poke;
@@ -35,7 +34,7 @@ std::vector<MotionPtr> near_pokes(const Task& task, const JointVector& q) {
   std::vector<MotionPtr> motions;
   const Eigen::Matrix3d axes = task.frame().tool_axes(task.base_from_tool(q));
   const Vector3 in = axes.col(2);
-  const auto retreat = gone_on(task, {q}, -back * in);
+  const auto retreat = gone_on(task, {q}, -near_back * in);
   if (!retreat) return motions;
   for (const int axis : {0, 1})
     for (const double sign : {1.0, -1.0})

@@ -61,27 +61,33 @@ Vector3 carried(const Trace& trace, std::size_t from, std::size_t to, const Vect
   return trace.bodies.base_from_body(to, 0) * (trace.bodies.base_from_body(from, 0).inverse() * base_point);
 }
 
-/// Where the robot is the deepest in the target, looking at a few of the waypoints from `hit` to the contact.
-contact::Nearest deepest_from(const Task& task, const Trace& trace, const Pose& base_from_target, std::size_t hit) {
+/// A contact before its time.
+struct Early {
+  std::size_t hit = 0;  ///< the first waypoint in contact
+  contact::Nearest at_hit, deepest;
+};
+
+/// The deepest as far as a few of the waypoints from `hit` to the touch tell.
+Early look_at(const Task& task, const Trace& trace, const Pose& base_from_target, std::size_t hit) {
   const std::size_t stride = std::max<std::size_t>(1, (trace.touch - hit) / looks);
-  contact::Nearest deepest;
-  for (std::size_t i = hit; i < trace.touch; i += stride) {
+  const contact::Nearest at_hit = task.target_contact().nearest(trace.bodies, hit, base_from_target);
+  Early early{hit, at_hit, at_hit};
+  for (std::size_t i = hit + stride; i < trace.touch; i += stride) {
     const contact::Nearest at = task.target_contact().nearest(trace.bodies, i, base_from_target);
-    if (at.distance < deepest.distance) deepest = at;
+    if (at.distance < early.deepest.distance) early.deepest = at;
   }
-  return deepest;
+  return early;
 }
 
-/// A contact that comes much too early, at `hit`: the target goes on by what the robot does from there to the stop.
-/// Moved the shortest way out instead, it would be passed at the side. False if that is not the case, or the robot only
-/// grazes it on a long way, and comes no deeper than `depth`.
-bool add_delay(const Task& task, const Trace& trace, const Pose& base_from_target, std::size_t hit, double depth,
+/// A contact that comes much too early: the target goes on by what the robot does from there to the stop. Moved the
+/// shortest way out instead, it would be passed at the side. False if that is not the case, or the robot only grazes it
+/// on a long way.
+bool add_delay(const Task& task, const Trace& trace, const Pose& base_from_target, const Early& early,
                Demands& demands) {
-  const contact::Nearest at_hit = task.target_contact().nearest(trace.bodies, hit, base_from_target);
-  const Vector3 there = base_from_target * at_hit.point;
-  const Vector3 way = carried(trace, hit, trace.bodies.size() - 1, there) - there;
+  const Vector3 there = base_from_target * early.at_hit.point;
+  const Vector3 way = carried(trace, early.hit, trace.bodies.size() - 1, there) - there;
   const double length = way.norm();
-  if (length < least_delay || depth < least_depth * length) return false;
+  if (length < least_delay || -early.deepest.distance < least_depth * length) return false;
   Row row = Row::Zero();
   for (int d = 0; d < 3; ++d)
     if (task.scene().prior.width[d] > 0.0) row[d] = way[d] / length;
@@ -111,9 +117,9 @@ Demands demands_of(const Task& task, const std::vector<const Trace*>& history, c
   for (const Trace* trace : history) {
     const auto hit = task.target_contact().first_within(trace->bodies, pose, 0.0, 0);
     if (hit && *hit < trace->touch) {
-      const contact::Nearest deepest = deepest_from(task, *trace, pose, *hit);
-      if (trace->contact && add_delay(task, *trace, pose, *hit, -deepest.distance, demands)) continue;
-      demands.add(derivative(task, v, pose, deepest), clear_by - deepest.distance, clear_by);
+      const Early early = look_at(task, *trace, pose, *hit);
+      if (trace->contact && add_delay(task, *trace, pose, early, demands)) continue;
+      demands.add(derivative(task, v, pose, early.deepest), clear_by - early.deepest.distance, clear_by);
     }
     if (trace->contact) add_touch(task, *trace, v, pose, demands);
   }

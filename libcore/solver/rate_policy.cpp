@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "action/insertion.hpp"
+#include "action/near_pokes.hpp"
 #include "support/rng.hpp"
 
 namespace tactus::solver {
@@ -21,7 +22,6 @@ constexpr double fixed_cost = 0.02;       // m, of the rate rule
 constexpr std::size_t few_members = 12;   // that may be tried one after another
 constexpr std::size_t many_members = 30;  // for which the way to a motion counts in its choice
 constexpr double place_pitch = 0.001;     // m
-constexpr double near_back = 0.03;        // m before anything can be met, as far as near pokes go back
 
 /// To tell apart where the tool is.
 std::uint64_t place_of(const Pose& base_from_tool) {
@@ -93,7 +93,7 @@ double RatePolicy::first_cost(const Pose& base_from_tool, const Plan& plan) cons
 double RatePolicy::near_cost(const Pose& base_from_tool, const Pose& base_from_near) const {
   const action::CostWeights& weights = task_->options().cost;
   const double across = (base_from_near.translation() - base_from_tool.translation()).norm();
-  return weights.action + weights.metre * (near_back + across) +
+  return weights.action + weights.metre * (action::near_back + across) +
          weights.radian * geometry::angle_between(base_from_tool, base_from_near);
 }
 
@@ -183,10 +183,11 @@ void RatePolicy::for_each_group(std::size_t motion, const Members& members, Visi
   }
 }
 
-/// The last waypoint from which a motion still has `near_back` to go to another one; the first if there is none.
+/// The last waypoint from which a motion still has `action::near_back` to go to another one; the first if there is
+/// none.
 std::size_t RatePolicy::place_before(std::size_t motion, std::size_t waypoint) const {
   const std::vector<double>& cost = motions_[motion]->cost_to;
-  const double least = cost_to(motion, waypoint) - near_back * task_->options().cost.metre;
+  const double least = cost_to(motion, waypoint) - action::near_back * task_->options().cost.metre;
   const auto after = std::upper_bound(cost.begin(), cost.end(), least);
   return after == cost.begin() ? 0 : static_cast<std::size_t>(after - cost.begin()) - 1;
 }
