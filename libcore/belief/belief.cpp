@@ -88,9 +88,7 @@ void Belief::learn_anew() {
 
 /// Takes in traces, and hands over once |PO| <= delta. False if nothing is left then.
 bool Belief::learn(const std::vector<const Trace*>& traces) {
-  if (cells_)
-    return cells_->update(task(), traces) &&
-           cells_->refine(task(), history_, [this](const CellBelief&) { return is_seated(); });
+  if (cells_) return cells_->update(task(), traces) && refine();
   for (const Trace* trace : traces) voxels_->update(task(), *trace);
   const std::size_t left = voxels_->possibly_occupied().count();
   return left > 0 && (left > model_->options.delta || hand_over());
@@ -100,9 +98,17 @@ bool Belief::learn(const std::vector<const Trace*>& traces) {
 bool Belief::hand_over() {
   cells_.emplace(task(), model_->options.cells);
   const auto outside = [this](const Pose& pose, double radius) { return voxels_->excludes(pose, radius); };
-  const bool possible = cells_->update(task(), believed(history_), outside) && cells_->refine(task(), history_);
+  const bool possible = cells_->update(task(), believed(history_), outside) && refine();
   voxels_.reset();
   return possible;
+}
+
+/// Cells all of whose poses are seated need not be finer. False if nothing is left.
+bool Belief::refine() {
+  const bool may_be_seated = history_.empty() || !history_.back().contact;
+  const Pose base_from_tool = task().base_from_tool(q_);
+  return cells_->refine(task(), history_,
+                        [&](const Cell& cell) { return may_be_seated && is_seated(base_from_tool, cell); });
 }
 
 /// Takes in what the history has beyond what was weighed.
@@ -151,7 +157,7 @@ JointPath Belief::way_back() const {
 /// longer tell anything, as is the case where they contradict each other more subtly than cells can tell. False if
 /// nothing is left.
 bool Belief::look_closer(const Belief& before) {
-  if (!cells_) return true;
+  if (!cells_ || is_seated()) return true;
   standstill_ = before.cells_ && cells_->weight() > hardly_less * before.cells_->weight() ? standstill_ + 1 : 0;
   const bool is_stuck = standstill_ >= patience;
   Looked looked = is_stuck ? look_closer(fine_radius) : Looked::gave_up;
@@ -170,8 +176,7 @@ Looked Belief::look_closer(double radius) {
   const Looked looked = cells_->look_inside(task(), history_, fine, 2 * tests_to_look);
   if (looked != Looked::all) return looked;
   standstill_ = 0;
-  const bool possible = cells_->refine(task(), history_, [this](const CellBelief&) { return is_seated(); });
-  return possible ? Looked::all : Looked::none;
+  return refine() ? Looked::all : Looked::none;
 }
 
 /// Whether the tool is seated at every pose of a cell.

@@ -139,6 +139,7 @@ class Belief {
   bool learn(const std::vector<const Trace*>& traces);
   void learn_anew();
   bool hand_over();
+  bool refine();
   void weigh();
   void suspect();
   bool is_seated(const Pose& base_from_tool, const Cell& cell) const;

@@ -10,10 +10,11 @@
 namespace tactus::belief {
 namespace {
 
-constexpr std::size_t first_round = 16;     // of cells that are looked into; each next round is twice as long
-constexpr std::size_t lot = 200;            // of cells that stand for all
-constexpr std::size_t parts_per_cell = 10;  // that are kept of cells looked into, for each there is room for else
-constexpr std::size_t stride = 61;          // between cells that are looked into one after another
+constexpr std::size_t first_round = 16;           // of cells that are looked into; each next round is twice as long
+constexpr std::size_t lot = 200;                  // of cells that stand for all
+constexpr std::size_t parts_per_cell = 10;        // that are kept of cells looked into, for each there is room for else
+constexpr std::size_t stride = 61;                // between cells that are looked into one after another
+constexpr std::size_t most_trace_tests = 600000;  // of one cell by one trace, in one go of splitting
 
 /// The indices below `count` in long steps.
 std::vector<std::size_t> strided(std::size_t count) {
@@ -196,9 +197,10 @@ PoseVector CellBelief::draw_in(const Cell& cell, support::Rng& rng) const {
 }
 
 /// With the coarsest ones split, up to `most` of them, and the halves that can't have given the history left out.
+/// Counts the `tests` of halves.
 std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
-                                                 const std::vector<Cell>& cells, std::size_t most,
-                                                 double finest) const {
+                                                 const std::vector<Cell>& cells, std::size_t most, double finest,
+                                                 std::size_t* tests) const {
   const double split_from = 0.8 * coarsest(cells);
   std::vector<Cell> candidates, kept;
   for (const Cell& cell : cells) {
@@ -207,6 +209,7 @@ std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::ve
     else
       for (const Cell& half : frame_.halves(cell)) candidates.push_back(half);
   }
+  if (tests) *tests += candidates.size();
   std::vector<char> is_possible(candidates.size());
   support::for_ranges(candidates.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
     std::vector<std::size_t> order = latest_first(history);
@@ -255,17 +258,29 @@ Cell CellBelief::any_cell(support::Rng& rng) const {
 }
 
 bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
-                        const std::function<bool(const CellBelief&)>& enough) {
+                        const std::function<bool(const Cell&)>& fine) {
+  if (grid_) return true;
   const std::size_t least_room = std::max<std::size_t>(1, options_.most / 16);
-  while (!grid_ && cells_.size() + least_room <= options_.most && !(enough && enough(*this)) &&
-         any_coarser(cells_, options_.finest_radius)) {
-    std::vector<Cell> kept =
-        halves_of_coarsest(task, history, cells_, options_.most - cells_.size(), options_.finest_radius);
-    if (kept.empty()) return false;
-    cells_ = std::move(kept);
-    weigh();
+  const std::size_t most_tests = most_trace_tests / std::max<std::size_t>(1, history.size());
+  std::vector<Cell> open = cells_, done;
+  std::size_t tests = 0;
+  bool is_possible = true;
+  while (is_possible) {
+    const auto is_open = [&](const Cell& cell) { return !fine || !fine(cell); };
+    const auto first_done = std::stable_partition(open.begin(), open.end(), is_open);
+    done.insert(done.end(), first_done, open.end());
+    open.erase(first_done, open.end());
+    const std::size_t count = open.size() + done.size();
+    if (count + least_room > options_.most || tests >= most_tests || !any_coarser(open, options_.finest_radius)) break;
+    const std::size_t most = std::min(options_.most - count, (most_tests - tests + 1) / 2);
+    std::vector<Cell> halves = halves_of_coarsest(task, history, open, most, options_.finest_radius, &tests);
+    is_possible = !halves.empty() || !done.empty();
+    if (is_possible) open = std::move(halves);
   }
-  return true;
+  cells_ = std::move(open);
+  cells_.insert(cells_.end(), done.begin(), done.end());
+  weigh();
+  return is_possible;
 }
 
 /// What may have given the history of one cell: parts that are fine enough.

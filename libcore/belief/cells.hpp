@@ -66,10 +66,10 @@ class CellBelief {
   /// any are left; if not, nothing is changed.
   bool update(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes = {});
 
-  /// Splits cells, the coarsest first, as long as there is room for more, and tests the new ones against the whole
-  /// history. False (and unchanged from there on) if that would leave none. Stops early when `enough` says so.
-  bool refine(const Task& task, const std::vector<Trace>& history,
-              const std::function<bool(const CellBelief&)>& enough = {});
+  /// Splits cells that are not `fine`, the coarsest first, as long as there is room for more, and tests the new ones
+  /// against the whole history. False (and unchanged from there on) if that would leave none. No `fine`: none is.
+  /// Goes no further than some seconds' worth of tests: the next observation may leave fewer cells to split.
+  bool refine(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& fine = {});
 
   /// Looks into the cells, depth first, so that it takes no more room than what is found: they are split until they are
   /// `fine`, and the parts tested against the whole history. Cells of which nothing is left go, the others are replaced
@@ -108,7 +108,8 @@ class CellBelief {
   double coarsest(const std::vector<Cell>& cells) const;
   bool any_coarser(const std::vector<Cell>& cells, double wanted) const;
   std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
-                                       const std::vector<Cell>& cells, std::size_t most, double finest) const;
+                                       const std::vector<Cell>& cells, std::size_t most, double finest,
+                                       std::size_t* tests = nullptr) const;
   bool may_reproduce(const Task& task, const std::vector<Trace>& history, std::vector<std::size_t>& order,
                      const Cell& cell) const;
   struct Inside;

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/greedy.hpp"
 
+#include <algorithm>
+
 namespace tactus::solver {
 namespace {
 
 constexpr double least_information = 1e-9;  // bits
 constexpr double fixed_cost = 0.02;         // m, of the rate rule
+
+double least(Greedy rule, double most) {
+  return rule == Greedy::frontier ? std::max(least_information, frontier_share * most) : least_information;
+}
+
+bool is_banned(const std::vector<bool>& banned, std::size_t choice) { return choice < banned.size() && banned[choice]; }
 
 double score(const Choice& choice, Greedy rule) {
   switch (rule) {
@@ -21,19 +29,27 @@ double score(const Choice& choice, Greedy rule) {
 
 }  // namespace
 
-std::optional<Merit> merit_of(const Choice& choice, Greedy rule) {
+double most_information(const std::vector<Choice>& choices, const std::vector<bool>& banned) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    if (!is_banned(banned, i)) most = std::max(most, choices[i].information());
+  return most;
+}
+
+std::optional<Merit> merit_of(const Choice& choice, Greedy rule, double most) {
   if (choice.goal_probability() > 0.5) return Merit{true, -choice.expected_cost()};
-  if (choice.information() <= least_information) return std::nullopt;
+  if (choice.information() <= least(rule, most)) return std::nullopt;
   return Merit{false, score(choice, rule)};
 }
 
 std::optional<std::size_t> greedy_choice(const std::vector<Choice>& choices, Greedy rule,
                                          const std::vector<bool>& banned) {
+  const double most = most_information(choices, banned);
   std::optional<std::size_t> best;
   std::optional<Merit> highest;
   for (std::size_t i = 0; i < choices.size(); ++i) {
-    if (i < banned.size() && banned[i]) continue;
-    const auto merit = merit_of(choices[i], rule);
+    if (is_banned(banned, i)) continue;
+    const auto merit = merit_of(choices[i], rule, most);
     if (merit > highest) highest = merit, best = i;  // none is less than any
   }
   return best;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "belief/episode.hpp"
 
@@ -142,6 +143,32 @@ TEST(Cells, WhatIsDroppedHoldsNoPoseThatReproducesTheHistory) {
       }
     }
   });
+}
+
+TEST(Cells, ThatAreFineAreNotSplitAndTheOthersAsFarAsThereIsRoom) {
+  constexpr std::size_t most = 1500;
+  Rng rng(21);
+  int split = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    observe(seed, 4, [&](const Belief& belief, const PoseVector& truth) {
+      CellBelief cells(task(), {.most = most});
+      if (!cells.update(task(), belief::believed(belief.history())) || cells.grid()) return;
+      const double middle = random_cell(cells, rng).centre[1];
+      const auto is_fine = [&](const Cell& cell) { return cell.centre[1] > middle; };
+      CellBelief refined = cells;
+      ASSERT_TRUE(refined.refine(task(), belief.history(), is_fine));
+      std::set<PoseVector> left;
+      double coarsest = 0.0;
+      refined.for_each([&](const Cell& cell) {
+        left.insert(cell.centre);
+        if (!is_fine(cell)) coarsest = std::max(coarsest, refined.radius(cell));
+      });
+      cells.for_each([&](const Cell& cell) { ASSERT_TRUE(!is_fine(cell) || left.contains(cell.centre)); });
+      EXPECT_TRUE(coarsest <= belief::CellOptions{}.finest_radius || refined.size() + most / 16 > most);
+      EXPECT_GE(holding(refined, truth), 1);
+      split += refined.size() > cells.size();
+    });
+  EXPECT_GT(split, 3);
 }
 
 TEST(Cells, DrawnPosesLieInCellsAndReproduceTheHistoryOrComeNearButForAnEighth) {

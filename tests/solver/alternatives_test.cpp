@@ -72,7 +72,7 @@ TEST(Alternatives, AreInTheOrderInWhichTheSolverWouldTakeThem) {
       const Alternative &better = weighed[i - 1], &worse = weighed[i];
       const std::size_t by = solver == Solver::rtdp_ad ? 0 : 1;
       if (rule)
-        ASSERT_GE(solver::merit_of(better.choice, *rule), solver::merit_of(worse.choice, *rule));
+        ASSERT_GE(solver::merit_of(better.choice, *rule, 0.0), solver::merit_of(worse.choice, *rule, 0.0));
       else
         ASSERT_LE(better.q[by], worse.q[by]);
     }

@@ -63,14 +63,19 @@ double merit(const Choice& choice, Greedy rule) {
   return rule == Greedy::frontier ? -cost(choice) : bits(choice) / (cost(choice) + 0.02);
 }
 
-/// The cheapest of those that more likely than not finish; else the one of most merit among those that say something.
+/// The cheapest of those that more likely than not finish; else the one of most merit among those that say something:
+/// for frontier, a fifth of what any says.
 std::optional<std::size_t> plain_choice(const std::vector<Choice>& choices, Greedy rule,
                                         const std::vector<bool>& banned) {
   std::vector<std::pair<double, std::size_t>> finishing, informing;
+  double most = 0.0;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    if (!banned[i]) most = std::max(most, bits(choices[i]));
   for (std::size_t i = 0; i < choices.size(); ++i) {
     if (banned[i]) continue;
     if (likely_finishes(choices[i])) finishing.emplace_back(-cost(choices[i]), i);
-    if (choices[i].outcomes.size() > 1) informing.emplace_back(merit(choices[i], rule), i);
+    const bool is_too_little = rule == Greedy::frontier && bits(choices[i]) <= 0.2 * most;
+    if (choices[i].outcomes.size() > 1 && !is_too_little) informing.emplace_back(merit(choices[i], rule), i);
   }
   const auto& candidates = finishing.empty() ? informing : finishing;
   if (candidates.empty()) return std::nullopt;
