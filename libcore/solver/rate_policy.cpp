@@ -22,7 +22,6 @@ constexpr double fixed_cost = 0.02;       // m, of the rate rule
 constexpr std::size_t few_members = 12;   // that may be tried one after another
 constexpr std::size_t many_members = 30;  // for which the way to a motion counts in its choice
 constexpr double place_pitch = 0.001;     // m
-constexpr double most_places = 10.0;      // that a pose stands for
 
 /// To tell apart where the tool is.
 std::uint64_t place_of(const Pose& base_from_tool) {
@@ -31,15 +30,6 @@ std::uint64_t place_of(const Pose& base_from_tool) {
     place =
         support::mix(place ^ static_cast<std::uint64_t>(std::llround(base_from_tool.translation()[d] / place_pitch)));
   return place;
-}
-
-/// For how many places a pose stands, each of them as large as an attempt serves. Where it serves `others` beside its
-/// own on average, m poses lie in m / others places, and of attempts at them only m / (1 + others) are counted.
-double places_per_pose(const std::vector<Bitset>& served) {
-  double others = 0.0;
-  for (const Bitset& poses : served) others += static_cast<double>(poses.count() - 1);
-  others /= static_cast<double>(served.size());
-  return 1.0 + others < most_places * others ? (1.0 + others) / others : most_places;
 }
 
 double mean(const std::vector<double>& values) {
@@ -55,7 +45,6 @@ RatePolicy::RatePolicy(std::shared_ptr<const action::Task> task, Predictions& pr
       motions_(std::move(motions)),
       attempts_(std::move(attempts)),
       served_(std::move(served)),
-      places_(places_per_pose(served_)),
       dimensions_(dimensions) {
   for (const MotionPtr& motion : motions_) {
     first_contacts_.push_back(&predictions.first_contacts(motion));
@@ -131,8 +120,7 @@ const RatePolicy::Plan& RatePolicy::plan(const Members& members, const Pose& bas
   return cost(attempts) < cost(probing) ? attempts : probing;
 }
 
-/// One after another, those that serve the most first; `places_` times as many as there are, half of its own before the
-/// one that serves a pose.
+/// One after another, those that serve the most first.
 RatePolicy::Plan RatePolicy::attempts_at(const Members& members) const {
   Bitset left(attempts_.size());
   for (const std::size_t member : members) left.set(member);
@@ -153,9 +141,8 @@ RatePolicy::Plan RatePolicy::attempts_at(const Members& members) const {
       spent += attempt_cost(last->base_from_seated, next);
     else
       plan.attempt = &next;
-    const double among_its_own = 0.5 * (places_ - 1.0) * attempt_cost(next.base_from_seated, next);
     for (std::size_t i = 0; i < members.size(); ++i)
-      if (left.test(members[i]) && served_[best].test(members[i])) plan.costs[i] = places_ * spent + among_its_own;
+      if (left.test(members[i]) && served_[best].test(members[i])) plan.costs[i] = spent;
     left.and_not(served_[best]);
     count -= most;
     last = &next;

@@ -22,11 +22,7 @@ struct Attempt {
 /// attempts at the poses that are left, one after another, are cheaper. It chooses among anchored motions; where few
 /// poses are left, without regard to where the robot is, so that a set of them is weighed once. An upper bound of the
 /// value of a belief on these poses, as far as the ways over the retreat plane, those near by to a motion or an
-/// attempt, and the attempts are free.
-///
-/// Poses are a sample of many more. Where they are so few that an attempt at one serves hardly any other, those that
-/// serve the target's true pose are mostly at none of them: each then stands for several places, up to ten, and has as
-/// many attempts. One thread.
+/// attempt, and the attempts are free. One thread.
 class RatePolicy {
  public:
   using Members = std::vector<std::size_t>;  ///< poses, ascending
@@ -83,7 +79,6 @@ class RatePolicy {
   std::vector<const std::vector<std::int32_t>*> first_nears_;     ///< by motion
   std::vector<Attempt> attempts_;
   std::vector<support::Bitset> served_;
-  double places_;  ///< for which a pose stands
   int dimensions_;
   std::unordered_map<support::Hash128, Plans, HashOf> plans_;
   std::vector<std::pair<std::int32_t, std::size_t>> sorted_;  ///< by the motion in hand: first contact, pose

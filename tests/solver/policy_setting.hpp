@@ -58,10 +58,6 @@ struct Setting {
       served.back().set(i);
     }
   }
-  /// An attempt at either of two poses that follow each other serves both.
-  void serve_in_pairs() {
-    for (std::size_t i = 0; i < served.size(); ++i) served[i].set(i ^ 1);
-  }
   RatePolicy policy() { return {on, predictions, probes, attempts, served, dimensions}; }
   double straight(const Pose& base_from_tool, std::size_t member) const {
     const Pose& seated = attempts[member].base_from_seated;
