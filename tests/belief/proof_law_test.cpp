@@ -190,10 +190,11 @@ TEST(LookInside, FindsNothingWhereNoPoseCanHaveGivenTheHistory) {
   EXPECT_GE(found_none, 10);
 }
 
-/// A grid of so few cells is never split otherwise: the belief would stay as coarse as it is.
+/// A grid of so few cells is never split otherwise: the belief would stay as coarse as it is. Where all of it is seated
+/// there is nothing more to know.
 TEST(LookInside, IsWhatABeliefDoesOnceObservationsTellNothingMore) {
   int looked = 0;
-  for (std::uint64_t seed = 91; seed <= 94; ++seed) {
+  for (std::uint64_t seed = 91; seed <= 102; ++seed) {
     Episode episode(model(), seed);
     while (episode.belief.history().empty() || !episode.belief.history().back().contact) episode.step();
     const double coarsest = episode.belief.cells().coarsest();
@@ -205,6 +206,7 @@ TEST(LookInside, IsWhatABeliefDoesOnceObservationsTellNothingMore) {
       belief.step(action, seen);
       return belief;
     }();
+    if (once.is_goal()) continue;
     Belief often = once;
     for (int i = 0; i < 4; ++i) {
       often.set_configuration(action.path.front());

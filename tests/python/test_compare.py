@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 TACTUS = pathlib.Path(os.environ.get("TACTUS_BUILD", ROOT / "build" / "release")) / "bin" / "tactus"
 SOLVERS = ["rate", "tbl", "frontier"]
 TRIALS, SEED = 3, 3
-CHANGES = [("../../examples", f"{ROOT}/examples"), ("actions: 3", "actions: 11"), ("delta: 400", "delta: 1090\n  particles: 20\n  max_cells: 1000")]
+CHANGES = [("../../examples", f"{ROOT}/examples"), ("actions: 3", "actions: 8"), ("delta: 400", "delta: 1090\n  particles: 20\n  max_cells: 1000")]
 
 if not TACTUS.exists():
     pytest.skip(f"{TACTUS} is not built", allow_module_level=True)
