@@ -266,8 +266,7 @@ bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
   std::size_t tests = 0;
   bool is_possible = true;
   while (is_possible) {
-    const auto is_open = [&](const Cell& cell) { return !fine || !fine(cell); };
-    const auto first_done = std::stable_partition(open.begin(), open.end(), is_open);
+    const auto first_done = std::stable_partition(open.begin(), open.end(), std::not_fn(fine));
     done.insert(done.end(), first_done, open.end());
     open.erase(first_done, open.end());
     const std::size_t count = open.size() + done.size();

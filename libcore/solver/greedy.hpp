@@ -17,7 +17,7 @@ enum class Greedy {
 
 /// With any information at all, however little, a sample of poses has `frontier` turn on the spot for what only the
 /// sample tells.
-constexpr double frontier_share = 0.2;
+inline constexpr double frontier_share = 0.2;
 
 /// The most expected information of some motions (bits).
 double most_information(const std::vector<Choice>& choices, const std::vector<bool>& banned = {});
