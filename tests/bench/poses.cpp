@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -19,7 +20,8 @@ constexpr std::size_t seeds = 100;  // that are brought into agreement with a hi
 constexpr std::size_t draws = 20;   // of cells, for each of these
 constexpr std::uint64_t episodes = 3;
 constexpr std::size_t most_actions = 60;
-constexpr double nearly = 0.001;  // m
+constexpr double nearly = 0.001;                // m
+constexpr double beside_by[] = {0.0003, 0.01};  // m off the true pose, for seeds beside it
 
 std::size_t met(const Belief& belief) {
   std::size_t count = 0;
@@ -50,13 +52,24 @@ std::vector<geometry::PoseVector> seeds_of(const Belief& belief, support::Rng& r
   return poses;
 }
 
-/// How many of them come to agree with the history, and how many to a millimetre.
+/// Poses up to a centimetre beside the true one, most of them much less.
+std::vector<geometry::PoseVector> seeds_beside(const Belief& belief, const geometry::Pose& truth, support::Rng& rng) {
+  const double lever = 0.5 * belief.task().target_diameter();
+  std::vector<geometry::PoseVector> poses(seeds, geometry::pose_vector(truth));
+  for (geometry::PoseVector& v : poses) {
+    const double off = std::exp(rng.uniform(std::log(beside_by[0]), std::log(beside_by[1])));
+    for (int d = 0; d < 6; ++d)
+      if (belief.task().scene().prior.width[d] > 0.0) v[d] += off * rng.uniform(-1.0, 1.0) / (d < 3 ? 1.0 : lever);
+  }
+  return poses;
+}
+
+/// How many of some poses come to agree with the history, and how many to a millimetre.
 struct Agreeing {
   std::size_t tried = 0, exactly = 0, to_a_millimetre = 0;
   double seconds = 0.0;
 
-  void add(const Belief& belief, support::Rng& rng) {
-    const std::vector<geometry::PoseVector> from = seeds_of(belief, rng);
+  void add(const Belief& belief, const std::vector<geometry::PoseVector>& from) {
     seconds += thread_seconds("ours", 0.0, [&] {
       for (const geometry::PoseVector& seed : from) {
         const auto found = belief::projected(belief.task(), belief.history(), seed, nearly);
@@ -85,10 +98,11 @@ struct Agreeing {
 std::vector<Row> poses(const std::string& name, const Options& options) {
   const auto scenario = scenario::load(TACTUS_SOURCE_DIR "/examples/scenarios/" + name + ".yaml");
   const auto model = scenario->model_of(belief::Kind::particles);
-  std::array<Agreeing, std::size(contacts)> after;
+  std::array<Agreeing, std::size(contacts)> after, beside;
   for (std::uint64_t episode = 0; episode < episodes; ++episode) {
     support::Rng rng(options.seed + episode);
-    simulation::World world(model, model->task->scene().prior.sample(rng));
+    const geometry::Pose truth = model->task->scene().prior.sample(rng);
+    simulation::World world(model, truth);
     Belief belief(model, model->task->scene().start);
     solver::Planner planner(model, short_sighted(options.seed + episode));
     for (std::size_t action = 0, next = 0; action < most_actions && next < std::size(contacts); ++action) {
@@ -96,12 +110,17 @@ std::vector<Row> poses(const std::string& name, const Options& options) {
       if (answer.kind != solver::Answer::Kind::action) break;
       belief.step(*answer.action, world.execute(*answer.action));
       if (!belief.history().back().contact || met(belief) != contacts[next]) continue;
-      after[next++].add(belief, rng);
+      after[next].add(belief, seeds_of(belief, rng));
+      beside[next++].add(belief, seeds_beside(belief, truth, rng));
     }
   }
   std::vector<Row> rows;
-  for (std::size_t i = 0; i < std::size(contacts); ++i)
-    if (after[i].tried > 0) rows.push_back(after[i].row(name + "-" + std::to_string(contacts[i])));
+  for (std::size_t i = 0; i < std::size(contacts); ++i) {
+    if (after[i].tried == 0) continue;
+    const std::string work = name + "-" + std::to_string(contacts[i]);
+    rows.push_back(after[i].row(work));
+    rows.push_back(beside[i].row(work + "-beside"));
+  }
   return rows;
 }
 
