@@ -96,24 +96,9 @@ bool add_delay(const Task& task, const Trace& trace, const Pose& base_from_targe
   return true;
 }
 
-/// What was seen of a stop so far. The nearest points are off by some tenths of a millimetre where edges meet; whether
-/// the robot touches is known exactly.
-struct Seen {
-  double apart = 1.0;   ///< m, by the nearest points: the least with which they did not touch,
-  double early = -1.0;  ///< and the greatest with which they touched before they should
-
-  /// A distance with which the robot may touch when it should: `usual`, unless that was seen not to be so.
-  double wanted(double usual, double depth) const {
-    if (early < usual && usual < apart) return usual;
-    if (apart < 1.0 && early > -1.0) return 0.5 * (early + apart);
-    return apart < 1.0 ? apart - depth : early + depth;
-  }
-};
-
-/// In touch at the stop: half as deep as it may be if the robot was free until just before, and where it is if it was.
-void add_touch(const Task& task, const Trace& trace, const PoseVector& v, std::optional<std::size_t> hit, Seen& seen,
+/// In touch at the stop: half as deep as it may be if the robot was free until just before.
+void add_touch(const Task& task, const Trace& trace, const PoseVector& v, const Pose& base_from_target,
                Demands& demands) {
-  const Pose base_from_target = geometry::pose_from(v);
   const std::size_t last = trace.bodies.size() - 1;
   const contact::Nearest at_stop = task.target_contact().nearest(trace.bodies, last, base_from_target);
   if (at_stop.distance >= 1.0) return;
@@ -121,29 +106,22 @@ void add_touch(const Task& task, const Trace& trace, const PoseVector& v, std::o
   const Vector3 last_way = there - carried(trace, last, trace.touch - 1, there);
   const double deepest = std::abs((base_from_target.linear() * at_stop.gradient).dot(last_way));
   const double depth = std::max(close_enough, 0.5 * std::min(deepest, task.options().stop_tolerance));
-  if (!hit) seen.apart = std::min(seen.apart, at_stop.distance);
-  if (hit && *hit + 1 == trace.touch) seen.early = std::max(seen.early, at_stop.distance);
-  const double usual = std::clamp(at_stop.distance, -depth - trace.travel, -depth);
-  const bool is_felt = hit && *hit >= trace.touch;
-  const double wanted = is_felt ? at_stop.distance : seen.wanted(usual, depth);
-  demands.add(derivative(task, v, base_from_target, at_stop), wanted - at_stop.distance, depth);
+  const double wanted = std::clamp(at_stop.distance, -depth - trace.travel, -depth);
+  if (wanted != at_stop.distance)
+    demands.add(derivative(task, v, base_from_target, at_stop), wanted - at_stop.distance, depth);
 }
 
-/// `seen`: of the stop of each trace.
-Demands demands_of(const Task& task, const std::vector<const Trace*>& history, const PoseVector& v,
-                   std::vector<Seen>& seen) {
+Demands demands_of(const Task& task, const std::vector<const Trace*>& history, const PoseVector& v) {
   const Pose pose = geometry::pose_from(v);
   Demands demands;
-  for (std::size_t i = 0; i < history.size(); ++i) {
-    const Trace& trace = *history[i];
-    const auto hit = task.target_contact().first_within(trace.bodies, pose, 0.0, 0);
-    const bool is_early = hit && *hit < trace.touch, is_all_but_right = trace.contact && hit && *hit + 1 == trace.touch;
-    if (is_early && !is_all_but_right) {
-      const Early early = look_at(task, trace, pose, *hit);
-      if (trace.contact && add_delay(task, trace, pose, early, demands)) continue;
-      demands.add(derivative(task, v, pose, early.deepest), clear_by - std::min(0.0, early.deepest.distance), clear_by);
+  for (const Trace* trace : history) {
+    const auto hit = task.target_contact().first_within(trace->bodies, pose, 0.0, 0);
+    if (hit && *hit < trace->touch) {
+      const Early early = look_at(task, *trace, pose, *hit);
+      if (trace->contact && add_delay(task, *trace, pose, early, demands)) continue;
+      demands.add(derivative(task, v, pose, early.deepest), clear_by - early.deepest.distance, clear_by);
     }
-    if (trace.contact) add_touch(task, trace, v, hit, seen[i], demands);
+    if (trace->contact) add_touch(task, *trace, v, pose, demands);
   }
   return demands;
 }
@@ -187,10 +165,9 @@ std::optional<Projection> projected(const Task& task, const std::vector<const Tr
   PoseVector at = inside(task.scene().prior, seed);
   double best = 1e300;
   int in_vain = 0;
-  std::vector<Seen> seen(history.size());
   for (int step = 0; step < steps; ++step) {
     if (reproduces(task, history, geometry::pose_from(at))) return Projection{at, 0.0};
-    const Demands demands = demands_of(task, history, at, seen);
+    const Demands demands = demands_of(task, history, at);
     const double worst = demands.largest();
     if (worst < (nearest ? nearest->miss : near)) nearest = Projection{at, std::max(worst, least_miss)};
     in_vain = worst < gain * best ? 0 : in_vain + 1;
