@@ -67,8 +67,8 @@ class CellBelief {
   bool update(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes = {});
 
   /// Splits cells that are not `fine`, the coarsest first, as long as there is room for more, and tests the new ones
-  /// against the whole history. False (and unchanged from there on) if that would leave none. Ends after
-  /// a bounded number of tests: the next observation may leave fewer cells to split.
+  /// against the whole history. False (and unchanged from there on) if that would leave none. Ends after a
+  /// bounded number of tests: the next observation may leave fewer cells to split.
   bool refine(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& fine);
 
   /// Looks into the cells, depth first, so that it takes no more room than what is found: they are split until they are

@@ -100,7 +100,7 @@ std::vector<Row> poses(const std::string& name, const Options& options) {
   const auto model = scenario->model_of(belief::Kind::particles);
   std::array<Agreeing, std::size(contacts)> after, beside;
   for (std::uint64_t episode = 0; episode < episodes; ++episode) {
-    support::Rng rng(options.seed + episode);
+    support::Rng rng(options.seed + episode), rng_beside(support::mix(options.seed + episode));
     const geometry::Pose truth = model->task->scene().prior.sample(rng);
     simulation::World world(model, truth);
     Belief belief(model, model->task->scene().start);
@@ -111,7 +111,7 @@ std::vector<Row> poses(const std::string& name, const Options& options) {
       belief.step(*answer.action, world.execute(*answer.action));
       if (!belief.history().back().contact || met(belief) != contacts[next]) continue;
       after[next].add(belief, seeds_of(belief, rng));
-      beside[next++].add(belief, seeds_beside(belief, truth, rng));
+      beside[next++].add(belief, seeds_beside(belief, truth, rng_beside));
     }
   }
   std::vector<Row> rows;
