@@ -111,7 +111,8 @@ enum {
   TACTUS_VERDICT_PASSED_OVER = 0, /**< a better one was found */
   TACTUS_VERDICT_CHOSEN = 1,      /**< handed out */
   TACTUS_VERDICT_UNREACHABLE = 2, /**< no free way to its start was found */
-  TACTUS_VERDICT_SET_ASIDE = 3    /**< it changed nothing when last tried, or others come first: the belief stalls */
+  TACTUS_VERDICT_SET_ASIDE = 3    /**< it changed nothing when last tried, others come first while the belief stalls,
+                                       or it tells too little for its cost beside another */
 };
 
 /** "passed over", "chosen", "unreachable", "set aside"; "unknown" for any other number. A constant. Any thread. */

@@ -14,7 +14,8 @@ enum class Verdict : std::int32_t {
   passed_over = 0,  ///< a better one was found
   chosen = 1,       ///< handed out
   unreachable = 2,  ///< no free way to its start
-  set_aside = 3,    ///< it changed nothing when it was last tried, or others come first while the belief stalls
+  set_aside = 3,    ///< it changed nothing when it was last tried, others come first while the belief stalls, or it
+                    ///< tells too little for its cost beside another
 };
 
 /// A motion weighed for an answer.

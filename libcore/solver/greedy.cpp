@@ -8,6 +8,7 @@ namespace {
 
 constexpr double least_information = 1e-9;  // bits
 constexpr double fixed_cost = 0.02;         // m, of the rate rule
+constexpr double likely = 0.5;              // probability of reaching the goal
 
 double least(Greedy rule, double most) {
   return rule == Greedy::frontier ? std::max(least_information, frontier_share * most) : least_information;
@@ -37,9 +38,20 @@ double most_information(const std::vector<Choice>& choices, const std::vector<bo
 }
 
 std::optional<Merit> merit_of(const Choice& choice, Greedy rule, double most) {
-  if (choice.goal_probability() > 0.5) return Merit{true, -choice.expected_cost()};
+  if (choice.goal_probability() > likely) return Merit{true, -choice.expected_cost()};
   if (choice.information() <= least(rule, most)) return std::nullopt;
   return Merit{false, score(choice, rule)};
+}
+
+std::vector<bool> falling_short(const std::vector<Choice>& choices, double share, const std::vector<bool>& banned) {
+  double best = 0.0;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    if (!is_banned(banned, i)) best = std::max(best, score(choices[i], Greedy::rate));
+  std::vector<bool> falls_short;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    falls_short.push_back(is_banned(banned, i) ||
+                          (choices[i].goal_probability() <= likely && score(choices[i], Greedy::rate) < share * best));
+  return falls_short;
 }
 
 std::optional<std::size_t> greedy_choice(const std::vector<Choice>& choices, Greedy rule,

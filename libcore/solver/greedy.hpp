@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "solver/problem.hpp"
 
@@ -29,6 +30,10 @@ using Merit = std::pair<bool, double>;
 /// None if the motion is not likely to reach the goal and carries no information, or too little beside the `most` that
 /// any does.
 std::optional<Merit> merit_of(const Choice& choice, Greedy rule, double most);
+
+/// By choice, whether it tells less than a `share` of the bits per (expected cost + 2 cm) that the best of those not
+/// `banned` tells, and is not likely to reach the goal. What is banned falls short.
+std::vector<bool> falling_short(const std::vector<Choice>& choices, double share, const std::vector<bool>& banned = {});
 
 /// The index of the chosen motion; none if none carries information or reaches the goal.
 std::optional<std::size_t> greedy_choice(const std::vector<Choice>& choices, Greedy rule,

@@ -20,6 +20,7 @@ constexpr int most_idle = 6;             // queries in a row whose actions were 
 constexpr int stages = 3;
 constexpr double back_off = 0.01;         // of the way it came, in units of cost, from what it touched
 constexpr double farther = 6.0;           // times as far, each time that this was not enough
+constexpr double telling = 0.6;           // of the bits per cost that the best motion tells, once something was met
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
 constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then;
@@ -339,9 +340,10 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
         (does_not_err && (is_known(*choices[i].motion) || is_made_already(*choices[i].motion))) ||
         share_alike(choices[i], touches) > certain)
       held_back.push_back(i), ban(i, Verdict::set_aside);
+  const auto left_out = [&] { return is_bounded() && feels ? falling_short(choices, telling, banned) : banned; };
   const auto best = [&] {
     const auto rule = greedy_of(options_.solver);
-    return rule ? greedy_choice(choices, *rule, banned) : search.best(node, banned);
+    return rule ? greedy_choice(choices, *rule, banned) : search.best(node, left_out());
   };
   const auto next = [&] {
     const auto choice = best();
@@ -363,6 +365,9 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
         realised[*choice] = std::move(made);
         continue;
       }
+      const std::vector<bool> tells_too_little = left_out();
+      for (std::size_t i = 0; i < choices.size(); ++i)
+        if (tells_too_little[i] && verdicts[i] == Verdict::passed_over) verdicts[i] = Verdict::set_aside;
       verdicts[*choice] = Verdict::chosen;
       policy_->verdicts = std::move(verdicts);
       return hand_out(belief, node, *choice, std::move(*made));

@@ -122,6 +122,39 @@ TEST(Greedy, LeavesOutWhatIsBannedUntilNothingIsLeft) {
   }
 }
 
+TEST(FallingShort, IsWhatTellsTooLittleForItsCostBesideTheBestThatMayBeChosen) {
+  Rng rng(4);
+  int short_ones = 0, others = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::vector<Choice> choices = random_choices(rng, 0.15);
+    std::vector<bool> banned(choices.size(), false);
+    for (std::size_t k = 0; k < choices.size(); ++k) banned[k] = i % 2 == 0 && rng.below(2) == 0;
+    const double share = rng.uniform(0.0, 1.0);
+    const std::vector<bool> falls_short = falling_short(choices, share, banned);
+    for (std::size_t a = 0; a < choices.size(); ++a) {
+      const bool is_beaten = [&] {
+        for (std::size_t b = 0; b < choices.size(); ++b)
+          if (!banned[b] && merit(choices[a], Greedy::rate) < share * merit(choices[b], Greedy::rate)) return true;
+        return false;
+      }();
+      ASSERT_EQ(falls_short[a], banned[a] || (is_beaten && choices[a].goal_probability() <= 0.5));
+      (falls_short[a] ? short_ones : others) += 1;
+    }
+  }
+  EXPECT_GT(short_ones, 1000);
+  EXPECT_GT(others, 1000);
+}
+
+TEST(FallingShort, LeavesTheBestAsLongAsAnyMayBeChosen) {
+  Rng rng(5);
+  for (int i = 0; i < 200; ++i) {
+    const std::vector<Choice> choices = random_choices(rng, 0.15);
+    const auto best = greedy_choice(choices, Greedy::rate);
+    if (!best) continue;
+    EXPECT_FALSE(falling_short(choices, 1.0)[*best]);
+  }
+}
+
 TEST(GreedyCostPerBit, PaysForTheMotionWithTheBestRate) {
   EXPECT_DOUBLE_EQ(greedy_cost_per_bit({0.3, 0.1, 0.2}, {3.0, 0.5, 0.0}, 0.035), 0.15);
   EXPECT_DOUBLE_EQ(greedy_cost_per_bit({0.3}, {30.0}, 0.035), 0.035) << "not less than the least";
