@@ -80,7 +80,10 @@ TACTUS_API void tactus_planner_destroy(tactus_planner* planner) TACTUS_NOEXCEPT;
 TACTUS_API tactus_status tactus_planner_query_action(tactus_planner* planner, const tactus_belief* belief,
                                                      tactus_action** action) TACTUS_NOEXCEPT;
 
-/** The query that is running returns soon with what it has. Without one, nothing happens. Any thread. */
+/**
+ * The query that is running returns TACTUS_CANCELLED within some milliseconds, unless it has its answer. Without one,
+ * nothing happens. Any thread.
+ */
 TACTUS_API tactus_status tactus_planner_cancel(tactus_planner* planner) TACTUS_NOEXCEPT;
 
 /** What the last query took, and (total) all of them since the planner was created. */

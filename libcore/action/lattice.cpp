@@ -10,8 +10,7 @@
 namespace tactus::action {
 namespace {
 
-constexpr double same_place = 0.01;  // m
-constexpr double same_turn = 0.01;   // rad
+constexpr double same_turn = 0.01;  // rad
 
 /// `pitch` apart over a range, as if one were at `through`.
 std::vector<double> rows(double low, double high, double pitch, double through) {
@@ -23,7 +22,8 @@ std::vector<double> rows(double low, double high, double pitch, double through) 
 }
 
 bool holds(const std::vector<double>& heights, double at) {
-  return std::any_of(heights.begin(), heights.end(), [&](double height) { return std::abs(height - at) < same_place; });
+  return std::any_of(heights.begin(), heights.end(),
+                     [&](double height) { return std::abs(height - at) < Lattice::same_place; });
 }
 
 /// Of the tool frame's origin, ascending: on the retreat plane, with the tip in each layer past it, and where the tool

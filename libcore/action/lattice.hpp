@@ -25,6 +25,8 @@ class Lattice {
   bool is_on_plane(std::size_t place) const { return place < across_[0] * across_[1]; }
   double pitch() const { return pitch_; }
 
+  static constexpr double same_place = 0.01;  ///< m within which a tool stands on a place
+
   /// Whether a robot at `q` stands on a place in the same posture, or would if the lattice went on that far.
   bool passes(const JointVector& q) const;
 

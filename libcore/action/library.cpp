@@ -78,24 +78,25 @@ Action make_action(const Task& task, Kind kind, JointPath path, std::size_t lead
   return action;
 }
 
-std::vector<MotionPtr> ActionLibrary::primitives_at(const JointVector& q) {
+std::vector<MotionPtr> ActionLibrary::primitives_at(const JointVector& q, const support::Cancellation& cancellation) {
   const std::vector<double> key(q.data(), q.data() + q.size());
   {
     const std::lock_guard lock(mutex_);
     if (const auto found = primitives_.find(key); found != primitives_.end()) return found->second;
   }
-  std::vector<MotionPtr> motions = primitives(task_, q);
+  std::vector<MotionPtr> motions = primitives(task_, q, cancellation);
   const std::lock_guard lock(mutex_);
   if (primitives_.size() >= kept_configurations) primitives_.clear();
   return primitives_.try_emplace(key, std::move(motions)).first->second;
 }
 
-std::vector<MotionPtr> ActionLibrary::probes_in(const geometry::Box& region, const JointVector& near, int most) {
+std::vector<MotionPtr> ActionLibrary::probes_in(const geometry::Box& region, const JointVector& near, int most,
+                                                const support::Cancellation& cancellation) {
   const std::lock_guard lock(mutex_);
   const bool is_kept = probes_.most == most && fills(region, probes_.region) && in_same_posture(probes_.near, near);
   if (!is_kept) {
     const geometry::Box wider = widened(region);
-    probes_ = {wider, near, most, probes(task_, wider, near, most)};
+    probes_ = {wider, near, most, probes(task_, wider, near, most, cancellation)};
   }
   return probes_.motions;
 }

@@ -38,12 +38,13 @@ class ActionLibrary {
   /// Through where the robot stands; kept for as long as it moves along its rows.
   std::shared_ptr<const Lattice> lattice_through(const JointVector& q);
 
-  /// `primitives` from `q`, made once per configuration.
-  std::vector<MotionPtr> primitives_at(const JointVector& q);
+  /// `primitives` from `q`, made once per configuration. Throws `Cancelled`, as the next.
+  std::vector<MotionPtr> primitives_at(const JointVector& q, const support::Cancellation& cancellation = {});
 
   /// `probes` through a region, or a little beyond it: kept for as long as the next region fills most of the last one
   /// they were made for, and the robot stays in a similar posture.
-  std::vector<MotionPtr> probes_in(const geometry::Box& region, const JointVector& near, int most);
+  std::vector<MotionPtr> probes_in(const geometry::Box& region, const JointVector& near, int most,
+                                   const support::Cancellation& cancellation = {});
 
   /// The executable action that takes the robot from `q` through `motion`: its way back and over the retreat plane
   /// first if it is anchored, by a planned path where the straight one is not free. None if no free way is found.

@@ -30,7 +30,7 @@ MotionPtr near_poke(const Task& task, const JointPath& retreat, const Vector3& w
 
 }  // namespace
 
-std::vector<MotionPtr> near_pokes(const Task& task, const JointVector& q) {
+std::vector<MotionPtr> near_pokes(const Task& task, const JointVector& q, const support::Cancellation& cancellation) {
   std::vector<MotionPtr> motions;
   const Eigen::Matrix3d axes = task.frame().tool_axes(task.base_from_tool(q));
   const Vector3 in = axes.col(2);
@@ -38,9 +38,11 @@ std::vector<MotionPtr> near_pokes(const Task& task, const JointVector& q) {
   if (!retreat) return motions;
   for (const int axis : {0, 1})
     for (const double sign : {1.0, -1.0})
-      for (const double way : aside)
+      for (const double way : aside) {
+        cancellation.check();
         if (MotionPtr motion = near_poke(task, *retreat, sign * way * axes.col(axis), in))
           motions.push_back(std::move(motion));
+      }
   return motions;
 }
 

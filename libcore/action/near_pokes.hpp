@@ -2,6 +2,7 @@
 #pragma once
 
 #include "action/motion.hpp"
+#include "support/cancellation.hpp"
 
 namespace tactus::action {
 
@@ -12,6 +13,8 @@ inline constexpr double near_back = 0.03;
 /// in, farther than it was. Not anchored: what the tool meets on the way there tells as much. A robot that has met the
 /// target feels for its edges with them, where a probe would have it go to the retreat plane and back. What the known
 /// world or the limits block before the tool is in again is left out; if they block it then, it goes as far as is free.
-std::vector<MotionPtr> near_pokes(const Task& task, const JointVector& q);
+/// Throws `Cancelled`.
+std::vector<MotionPtr> near_pokes(const Task& task, const JointVector& q,
+                                  const support::Cancellation& cancellation = {});
 
 }  // namespace tactus::action

@@ -30,7 +30,7 @@ void add_ray(const Task& task, Kind kind, const JointVector& q, const Pose& base
 
 }  // namespace
 
-std::vector<MotionPtr> primitives(const Task& task, const JointVector& q) {
+std::vector<MotionPtr> primitives(const Task& task, const JointVector& q, const support::Cancellation& cancellation) {
   const ActionOptions& options = task.options().actions;
   const Pose base_from_tool = task.base_from_tool(q);
   const Eigen::Matrix3d axes = task.frame().tool_axes(base_from_tool);
@@ -39,6 +39,7 @@ std::vector<MotionPtr> primitives(const Task& task, const JointVector& q) {
     const double longest = *std::max_element(options.primitive_lengths.begin(), options.primitive_lengths.end());
     for (int axis = 0; axis < 3; ++axis)
       for (const double sign : {1.0, -1.0}) {
+        cancellation.check();
         Pose goal = base_from_tool;
         goal.translation() += sign * longest * axes.col(axis);
         const auto moved = [&](const JointVector& at) {
@@ -50,6 +51,7 @@ std::vector<MotionPtr> primitives(const Task& task, const JointVector& q) {
   if (!options.primitive_angles.empty()) {
     const double largest = *std::max_element(options.primitive_angles.begin(), options.primitive_angles.end());
     for (const double sign : {1.0, -1.0}) {
+      cancellation.check();
       Pose goal = base_from_tool;
       goal.linear() =
           Eigen::AngleAxisd(sign * largest, Vector3(axes.col(2))).toRotationMatrix() * base_from_tool.linear();

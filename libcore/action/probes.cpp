@@ -107,12 +107,14 @@ MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3
   return finished(task, std::move(motion));
 }
 
-std::vector<MotionPtr> probes(const Task& task, const Box& region, const JointVector& near, int most) {
+std::vector<MotionPtr> probes(const Task& task, const Box& region, const JointVector& near, int most,
+                              const support::Cancellation& cancellation) {
   const ActionOptions& options = task.options().actions;
   const scene::SearchFrame& frame = task.frame();
   const double plane = retreat_plane(task, region);
   std::vector<MotionPtr> motions;
   const auto add = [&](Kind kind, const std::vector<Vector3>& positions) {
+    cancellation.check();
     if (MotionPtr motion = anchored_motion(task, kind, positions, 0.0, near)) motions.push_back(std::move(motion));
   };
   const auto with_tip_at = [&](double depth) {

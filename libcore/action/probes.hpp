@@ -2,6 +2,7 @@
 #pragma once
 
 #include "action/motion.hpp"
+#include "support/cancellation.hpp"
 
 namespace tactus::action {
 
@@ -9,8 +10,10 @@ namespace tactus::action {
 /// `probe_spacing` apart (fewer and evenly spaced where the region is narrow), in up to three `layers` where it is
 /// deep, and pokes to its far side on a grid twice as wide. `region` is a box in the search frame; `most` bounds the
 /// number of lines per side. Each sets out from the region's retreat plane. What the known world or the limits block is
-/// left out. `near`: the configuration whose posture is kept.
-std::vector<MotionPtr> probes(const Task& task, const geometry::Box& region, const JointVector& near, int most = 7);
+/// left out. `near`: the configuration whose posture is kept. Throws
+/// `Cancelled`.
+std::vector<MotionPtr> probes(const Task& task, const geometry::Box& region, const JointVector& near, int most = 7,
+                              const support::Cancellation& cancellation = {});
 
 /// Height of the tool frame's origin in the search frame on the retreat plane of a part of the search region: as far
 /// before it as the retreat plane is before the whole. A target in that part is not touched there, so that a robot that

@@ -113,13 +113,13 @@ class Belief {
   /// are few a sixteenth in those that are far from all others, however little they weigh, then from any cells, and
   /// where close ones are hard to find there from fine parts of cells, by lot from all over; if there are too few parts
   /// too, an eighth are anywhere in a cell, so that no part of the belief goes without a pose. Looks no further after
-  /// `latest_draw`: what parts there are by then serve as they are, up to `count` of them.
+  /// `latest_draw`: what parts there are by then serve as they are, up to `count` of them. Throws `Cancelled`.
   std::vector<Drawn> draw(std::size_t count, support::Rng& rng, const std::vector<Drawn>& known = {},
                           const support::Deadline& deadline = support::Deadline::unlimited()) const;
 
   /// Phase 1: up to `count` poses drawn from the prior and brought into agreement with the history, to a millimetre at
   /// least, from no farther away than half a voxel's diagonal or so; up to two thirds of them from the `known` ones, as
-  /// above. Fewer, or none, where they are rare. Looks no further after `latest_draw`.
+  /// above. Fewer, or none, where they are rare. Looks no further after `latest_draw`. Throws `Cancelled`.
   std::vector<Drawn> draw_feasible(std::size_t count, support::Rng& rng, const std::vector<Drawn>& known = {},
                                    const support::Deadline& deadline = support::Deadline::unlimited()) const;
 

@@ -10,11 +10,10 @@
 namespace tactus::belief {
 namespace {
 
-constexpr std::size_t first_round = 16;           // of cells that are looked into; each next round is twice as long
-constexpr std::size_t lot = 200;                  // of cells that stand for all
-constexpr std::size_t parts_per_cell = 10;        // that are kept of cells looked into, for each there is room for else
-constexpr std::size_t stride = 61;                // between cells that are looked into one after another
-constexpr std::size_t most_trace_tests = 600000;  // of one cell by one trace, in one go of splitting
+constexpr std::size_t first_round = 16;     // of cells that are looked into; each next round is twice as long
+constexpr std::size_t lot = 200;            // of cells that stand for all
+constexpr std::size_t parts_per_cell = 10;  // that are kept of cells looked into, for each there is room for else
+constexpr std::size_t stride = 61;          // between cells that are looked into one after another
 
 /// The indices below `count` in long steps.
 std::vector<std::size_t> strided(std::size_t count) {
@@ -200,7 +199,7 @@ PoseVector CellBelief::draw_in(const Cell& cell, support::Rng& rng) const {
 /// Counts the `tests` of halves.
 std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
                                                  const std::vector<Cell>& cells, std::size_t most, double finest,
-                                                 std::size_t* tests) const {
+                                                 std::size_t* tests, const support::Cancellation& cancellation) const {
   const double split_from = 0.8 * coarsest(cells);
   std::vector<Cell> candidates, kept;
   for (const Cell& cell : cells) {
@@ -213,7 +212,10 @@ std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::ve
   std::vector<char> is_possible(candidates.size());
   support::for_ranges(candidates.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
     std::vector<std::size_t> order = latest_first(history);
-    for (std::size_t i = begin; i < end; ++i) is_possible[i] = may_reproduce(task, history, order, candidates[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      cancellation.check();
+      is_possible[i] = may_reproduce(task, history, order, candidates[i]);
+    }
   });
   const std::vector<Cell> possible = chosen(candidates, is_possible);
   kept.insert(kept.end(), possible.begin(), possible.end());
@@ -237,7 +239,7 @@ std::vector<Cell> CellBelief::draw_parts(const Task& task, const std::vector<Tra
                                          double wanted, support::Rng& rng, const support::Deadline& deadline) const {
   std::vector<Cell> parts = by_lot(count, rng);
   while (any_coarser(parts, wanted) && deadline.used_fraction() < latest_draw) {
-    parts = halves_of_coarsest(task, history, parts, parts.size(), wanted);
+    parts = halves_of_coarsest(task, history, parts, parts.size(), wanted, nullptr, deadline.cancellation());
     if (parts.size() > 2 * count) parts = thinned(parts, count, rng);
   }
   return parts.size() > count ? thinned(parts, count, rng) : parts;
@@ -261,7 +263,7 @@ bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
                         const std::function<bool(const Cell&)>& fine) {
   if (grid_) return true;
   const std::size_t least_room = std::max<std::size_t>(1, options_.most / 16);
-  const std::size_t most_tests = most_trace_tests / std::max<std::size_t>(1, history.size());
+  const std::size_t most_tests = options_.most_trace_tests / std::max<std::size_t>(1, history.size());
   std::vector<Cell> open = cells_, done;
   std::size_t tests = 0;
   bool is_possible = true;

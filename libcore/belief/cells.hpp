@@ -23,6 +23,8 @@ struct CellOptions {
   std::size_t most = 20000;              ///< cells are split while there are fewer; ten times that for `look_inside`
   std::size_t most_at_first = 1u << 21;  ///< initial cells are widened until there are no more than these
   double finest_radius = 0.00025;        ///< m: no cell with a smaller radius is split
+  /// Tests of one cell by one trace after which one `refine` ends; the next goes on where it was.
+  std::size_t most_trace_tests = 600000;
   std::shared_ptr<const CellTables> tables{};  ///< used while the cells are those of their grid; null: none
   int threads = 1;  ///< that test cells; 0: as many as the machine has. The answers are the same
 };
@@ -67,8 +69,8 @@ class CellBelief {
   bool update(const Task& task, const std::vector<const Trace*>& traces, const Excludes& excludes = {});
 
   /// Splits cells that are not `fine`, the coarsest first, as long as there is room for more, and tests the new ones
-  /// against the whole history. False (and unchanged from there on) if that would leave none. Ends after a
-  /// bounded number of tests: the next observation may leave fewer cells to split.
+  /// against the whole history. False (and unchanged from there on) if that would leave none. Ends after
+  /// `CellOptions::most_trace_tests`: the next observation may leave fewer cells to split.
   bool refine(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& fine);
 
   /// Looks into the cells, depth first, so that it takes no more room than what is found: they are split until they are
@@ -89,7 +91,7 @@ class CellBelief {
   /// About `count` parts of cells, each of at most `radius` (m; it may be finer than cells are split), drawn by weight
   /// from all the parts of that size that may have given the history: cells are split, the parts tested, and again and
   /// again all but `count` of them left out by lot. Empty if none was met. Stops early, with coarser parts, after
-  /// `latest_draw`.
+  /// `latest_draw`. Throws `Cancelled`.
   std::vector<Cell> draw_parts(const Task& task, const std::vector<Trace>& history, std::size_t count, double radius,
                                support::Rng& rng,
                                const support::Deadline& deadline = support::Deadline::unlimited()) const;
@@ -109,7 +111,8 @@ class CellBelief {
   bool any_coarser(const std::vector<Cell>& cells, double wanted) const;
   std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
                                        const std::vector<Cell>& cells, std::size_t most, double finest,
-                                       std::size_t* tests = nullptr) const;
+                                       std::size_t* tests = nullptr,
+                                       const support::Cancellation& cancellation = {}) const;
   bool may_reproduce(const Task& task, const std::vector<Trace>& history, std::vector<std::size_t>& order,
                      const Cell& cell) const;
   struct Inside;

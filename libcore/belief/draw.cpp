@@ -38,11 +38,11 @@ Drawn drawn_from(const Projection& found) { return {geometry::pose_from(found.po
 
 /// A pose drawn for an earlier state, brought into agreement with what was felt since; bit for bit the same if it is
 /// already. None if a motion that met nothing rules it out, or it misses the history by more than `most`.
-std::optional<Drawn> brought_back(const Task& task, const std::vector<Trace>& history, const Drawn& known,
-                                  double most) {
+std::optional<Drawn> brought_back(const Task& task, const std::vector<Trace>& history, const Drawn& known, double most,
+                                  const support::Cancellation& cancellation) {
   if (was_missed(task, history, known.pose)) return std::nullopt;
   const PoseVector from = geometry::pose_vector(known.pose);
-  const auto found = projected(task, history, from, most);
+  const auto found = projected(task, history, from, most, cancellation);
   if (!found) return std::nullopt;
   return found->pose == from ? Drawn{known.pose, found->miss} : drawn_from(*found);
 }
@@ -119,11 +119,13 @@ class Draw {
 
   void add(const Drawn& found) { (found.miss <= finest_part ? close_ : near_poses_).push_back(found); }
   void add_projected(const PoseVector& from) {
-    if (const auto found = projected(belief_.task(), belief_.history(), from, near_)) add(drawn_from(*found));
+    if (const auto found = projected(belief_.task(), belief_.history(), from, near_, deadline_.cancellation()))
+      add(drawn_from(*found));
   }
   /// A pose from a cell, brought into agreement with the contacts unless it can't be far from that. False if a motion
   /// that met nothing rules it out.
   bool add_from(const Cell& cell) {
+    deadline_.cancellation().check();
     const PoseVector v = cells_.draw_in(cell, rng_);
     const Pose pose = geometry::pose_from(v);
     const double radius = cells_.radius(cell);
@@ -170,7 +172,9 @@ class Draw {
   void bring_back(const std::vector<Drawn>& known) {
     for (std::size_t tried = 0; tried < known.size() && lacks(count_ - count_ / least_share); ++tried) {
       if (size() * pays_from < tried && deadline_.used_fraction() >= latest_unpaid) return;
-      if (const auto still = brought_back(belief_.task(), belief_.history(), known[tried], near_)) add(*still);
+      if (const auto still =
+              brought_back(belief_.task(), belief_.history(), known[tried], near_, deadline_.cancellation()))
+        add(*still);
     }
   }
 
@@ -179,7 +183,10 @@ class Draw {
     if (cells_.size() > most_compared) return;
     FarthestFirst cells(cells_, 0.5 * belief_.task().target_diameter());
     for (const std::vector<Drawn>* found : {&close_, &near_poses_})
-      for (const Drawn& drawn : *found) cells.add(Place(drawn.pose));
+      for (const Drawn& drawn : *found) {
+        deadline_.cancellation().check();
+        cells.add(Place(drawn.pose));
+      }
     for (std::size_t tried = 0; tried < count_ / far_share && lacks(count_); ++tried) {
       const auto cell = cells.next([&](const Cell& one) { return 2.0 * cells_.radius(one); });
       if (!cell) return;
@@ -217,9 +224,11 @@ class Draw {
   std::vector<Drawn> chosen(std::size_t unproved) {
     std::vector<Drawn> poses;
     for (const std::vector<Drawn>* found : {&close_, &near_poses_})
-      for (const Drawn& drawn : *found)
+      for (const Drawn& drawn : *found) {
+        deadline_.cancellation().check();
         if (poses.size() + unproved < count_ && (drawn.miss == 0.0 || belief_.contains(drawn.pose)))
           poses.push_back(drawn);
+      }
     for (std::size_t i = 0; i < unproved || poses.size() < count_ / least_share; ++i) {
       const Cell cell = cells_.draw_cell(rng_);
       poses.push_back({geometry::pose_from(cells_.draw_in(cell, rng_)), cells_.radius(cell)});
@@ -257,7 +266,7 @@ std::vector<Drawn> Belief::draw_explained(std::size_t count, support::Rng& rng,
   const auto parts = weighed_->draw_parts(task(), history_, count, finest_part, rng, deadline);
   for (const WeighedCells::Weighed& part : parts) {
     const std::vector<const Trace*> traces = WeighedCells::explained(history_, part.doubts);
-    const auto found = projected(task(), traces, part.cell.centre, least_near);
+    const auto found = projected(task(), traces, part.cell.centre, least_near, deadline.cancellation());
     poses.push_back({geometry::pose_from(found ? found->pose : part.cell.centre), found ? found->miss : least_near});
   }
   return poses;
@@ -271,13 +280,16 @@ std::vector<Drawn> Belief::draw_feasible(std::size_t count, support::Rng& rng, c
     return poses.size() < wanted && deadline.used_fraction() < latest_draw;
   };
   for (std::size_t i = 0; i < known.size() && lacks(count - count / least_share); ++i)
-    if (const auto still = brought_back(task(), history_, known[i], least_near)) poses.push_back(*still);
+    if (const auto still = brought_back(task(), history_, known[i], least_near, deadline.cancellation()))
+      poses.push_back(*still);
   std::size_t tried = 0;
   for (std::size_t i = 0; i < samples_per_pose * count && tried < tries_per_pose * count && lacks(count); ++i) {
+    deadline.cancellation().check();
     const Pose pose = task().scene().prior.sample(rng);
     if (!may_reproduce(task(), history_, pose, radius) || was_missed(task(), history_, pose)) continue;
     ++tried;
-    if (const auto found = projected(task(), history_, geometry::pose_vector(pose), least_near))
+    if (const auto found =
+            projected(task(), history_, geometry::pose_vector(pose), least_near, deadline.cancellation()))
       poses.push_back(drawn_from(*found));
   }
   return poses;

@@ -111,10 +111,12 @@ void add_touch(const Task& task, const Trace& trace, const PoseVector& v, const 
     demands.add(derivative(task, v, base_from_target, at_stop), wanted - at_stop.distance, depth);
 }
 
-Demands demands_of(const Task& task, const std::vector<const Trace*>& history, const PoseVector& v) {
+Demands demands_of(const Task& task, const std::vector<const Trace*>& history, const PoseVector& v,
+                   const support::Cancellation& cancellation) {
   const Pose pose = geometry::pose_from(v);
   Demands demands;
   for (const Trace* trace : history) {
+    cancellation.check();
     const auto hit = task.target_contact().first_within(trace->bodies, pose, 0.0, 0);
     if (hit && *hit < trace->touch) {
       const Early early = look_at(task, *trace, pose, *hit);
@@ -159,7 +161,7 @@ PoseVector inside(const scene::Prior& prior, PoseVector v) {
 }  // namespace
 
 std::optional<Projection> projected(const Task& task, const std::vector<const Trace*>& history, const PoseVector& seed,
-                                    double near) {
+                                    double near, const support::Cancellation& cancellation) {
   const double lever = 0.5 * task.target_diameter();
   std::optional<Projection> nearest;
   PoseVector at = inside(task.scene().prior, seed);
@@ -167,7 +169,7 @@ std::optional<Projection> projected(const Task& task, const std::vector<const Tr
   int in_vain = 0;
   for (int step = 0; step < steps; ++step) {
     if (reproduces(task, history, geometry::pose_from(at))) return Projection{at, 0.0};
-    const Demands demands = demands_of(task, history, at);
+    const Demands demands = demands_of(task, history, at, cancellation);
     const double worst = demands.largest();
     if (worst < (nearest ? nearest->miss : near)) nearest = Projection{at, std::max(worst, least_miss)};
     in_vain = worst < gain * best ? 0 : in_vain + 1;
@@ -179,8 +181,8 @@ std::optional<Projection> projected(const Task& task, const std::vector<const Tr
 }
 
 std::optional<Projection> projected(const Task& task, const std::vector<Trace>& history, const PoseVector& seed,
-                                    double near) {
-  return projected(task, believed(history), seed, near);
+                                    double near, const support::Cancellation& cancellation) {
+  return projected(task, believed(history), seed, near, cancellation);
 }
 
 }  // namespace tactus::belief

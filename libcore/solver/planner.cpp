@@ -84,14 +84,24 @@ Answer Planner::query(const belief::Belief& belief) {
     if (answer.action) return answer;
     statistics_.from_policy = false;
   }
-  plan(belief, deadline);
-  Answer answer = act(belief, Search::start, deadline);
+  Answer answer = planned(belief, deadline);
   statistics_.expansions = deadline.expansions();
   statistics_.seconds = deadline.elapsed_seconds();
   ++statistics_.total_calls;
   statistics_.total_expansions += statistics_.expansions;
   statistics_.total_seconds += statistics_.seconds;
   return answer;
+}
+
+/// The policy of a call that was cancelled is not kept.
+Answer Planner::planned(const belief::Belief& belief, support::Deadline& deadline) {
+  try {
+    plan(belief, deadline);
+    return act(belief, Search::start, deadline);
+  } catch (const support::Cancelled&) {
+    policy_.reset();
+    return {Answer::Kind::cancelled, nullptr};
+  }
 }
 
 const std::vector<Alternative>& Planner::alternatives() const {
@@ -178,7 +188,7 @@ void Planner::predict(const belief::Belief& belief) {
   for (const belief::Drawn& drawn : poses_) misses.push_back(drawn.miss);
   const double blur = belief::stop_blur(*model_->task, belief.sensing());
   auto predictions = std::make_shared<Predictions>(model_->task, belief::poses_of(poses_), blur, std::move(misses),
-                                                   model_->options.cells.threads);
+                                                   model_->options.cells.threads, &cancelled_);
   if (predictions_) predictions->take_over(*predictions_);
   predictions_ = std::move(predictions);
 }
@@ -353,6 +363,7 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
     return best();
   };
   for (auto choice = next(); choice; choice = next()) {
+    if (deadline.cancelled()) return {Answer::Kind::cancelled, nullptr};
     const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
     auto made = std::move(realised[*choice]);
     const bool is_charged = made.has_value();

@@ -41,8 +41,8 @@ class Planner {
 
   Answer query(const belief::Belief& belief);
 
-  /// The query that is running returns soon with what it has, or `cancelled` if it has nothing. Without one, the next
-  /// query is not affected.
+  /// The query that is running returns `cancelled` within some milliseconds, unless it has its answer. Without one, the
+  /// next query is not affected.
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
 
   const PlannerStatistics& statistics() const { return statistics_; }
@@ -72,6 +72,7 @@ class Planner {
   BeliefStatePtr on_voxels(const belief::Belief& belief, const support::Deadline& deadline);
   BeliefStatePtr on_poses(const belief::Belief& belief);
   void plan(const belief::Belief& belief, support::Deadline& deadline);
+  Answer planned(const belief::Belief& belief, support::Deadline& deadline);
 
   std::shared_ptr<const belief::Model> model_;
   PlannerOptions options_;

@@ -62,7 +62,8 @@ class PoseState : public BeliefState {
   std::vector<Choice> choices(const support::Deadline& deadline) const override {
     if (at_start_) problem_->cost_per_bit_ = 1.0;
     std::vector<Choice> result = weighed(considered(), deadline);
-    if (at_start_ && result.empty()) result = weighed({problem_->library_->primitives_at(q_)}, deadline);
+    if (at_start_ && result.empty())
+      result = weighed({problem_->library_->primitives_at(q_, problem_->cancellation())}, deadline);
     if (at_start_ && problem_->policy_) weigh_carefully(result, deadline);
     if (at_start_ && !problem_->policy_) problem_->price_bits(result);
     return result;
@@ -81,7 +82,7 @@ class PoseState : public BeliefState {
 
   Kinds considered() const {
     Kinds kinds;
-    std::vector<MotionPtr> primitives = problem_->library_->primitives_at(q_);
+    std::vector<MotionPtr> primitives = problem_->library_->primitives_at(q_, problem_->cancellation());
     if (at_start_) std::erase_if(primitives, [&](const MotionPtr& motion) { return problem_->leads_nowhere(*motion); });
     if (at_start_ && problem_->walk_) {
       kinds.push_back(problem_->walk_->steps_from(q_));
@@ -294,7 +295,7 @@ bool PoseProblem::leads_nowhere(const Motion& motion) const {
 const std::vector<MotionPtr>& PoseProblem::anchored(const JointVector& near) {
   if (!anchored_made_) {
     const bool are_few = second_ == SecondValue::upper_bound && !nothing_met_;
-    anchored_ = library_->probes_in(region_, near, are_few ? lines_once_met : lines_per_side);
+    anchored_ = library_->probes_in(region_, near, are_few ? lines_once_met : lines_per_side, cancellation());
     for (MotionPtr& motion : anchored_)
       if (motion->kind == action::Kind::sweep) motion = ending_with_contacts(motion);
   }
@@ -329,19 +330,21 @@ MotionPtr PoseProblem::near_insertion_at(std::size_t seat, const JointVector& q)
 
 /// From where the robot stands at the start, `q`.
 const std::vector<MotionPtr>& PoseProblem::near_pokes(const JointVector& q) {
-  if (!near_pokes_) near_pokes_ = action::near_pokes(*task_, q);
+  if (!near_pokes_) near_pokes_ = action::near_pokes(*task_, q, cancellation());
   return *near_pokes_;
 }
 
 void PoseProblem::find_neighbours() {
   neighbours_.assign(seated_.size(), Bitset(seated_.size()));
-  for (std::size_t a = 0; a < seated_.size(); ++a)
+  for (std::size_t a = 0; a < seated_.size(); ++a) {
+    cancellation().check();
     for (std::size_t b = 0; b <= a; ++b) {
       const double shift = (seated_[a].translation() - seated_[b].translation()).norm();
       if (shift >= same_seat || shift + lever * geometry::angle_between(seated_[a], seated_[b]) >= same_seat) continue;
       neighbours_[a].set(b);
       neighbours_[b].set(a);
     }
+  }
 }
 
 /// Attempts at the seats that have the most others near by, each for a different group of poses; if `nears`, from where
@@ -355,6 +358,7 @@ std::vector<MotionPtr> PoseProblem::insertions(const Bitset& members, const Join
   std::vector<MotionPtr> found;
   std::size_t groups = 0;
   for (std::size_t tries = 0; tries < most * seats() && groups < most && !left.none(); ++tries) {
+    cancellation().check();
     std::size_t best = 0, densest = 0;
     for (const std::size_t seat : order) {
       if (!left.test(seat)) continue;

@@ -47,6 +47,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   int dimensions() const;  ///< that are free
   std::size_t weighed_late() const;
   void price_bits(std::vector<Choice>& at_start);
+  const support::Cancellation& cancellation() const { return predictions_->cancellation(); }
   std::size_t seats() const { return task_->scene().target.target_from_seated.size(); }
   void find_neighbours();
   action::MotionPtr ending_with_contacts(const action::MotionPtr& motion);

@@ -19,8 +19,13 @@ std::size_t least_group(std::size_t count, int dimensions) {
 }
 
 Predictions::Predictions(std::shared_ptr<const action::Task> task, std::vector<geometry::Pose> poses, double blur,
-                         std::vector<double> misses, int threads)
-    : task_(std::move(task)), poses_(std::move(poses)), misses_(std::move(misses)), blur_(blur), threads_(threads) {
+                         std::vector<double> misses, int threads, support::Cancellation cancellation)
+    : task_(std::move(task)),
+      poses_(std::move(poses)),
+      misses_(std::move(misses)),
+      blur_(blur),
+      threads_(threads),
+      cancellation_(cancellation) {
   misses_.resize(poses_.size(), 0.0);
 }
 
@@ -87,6 +92,7 @@ std::size_t Predictions::first_contact(const MotionPtr& motion, std::size_t pose
 std::size_t Predictions::first_contact(Row& row, std::size_t pose) const {
   std::int32_t& stored = row.first_contact[pose];
   if (stored < 0) {
+    cancellation_.check();
     const MotionPtr& motion = row.motion;
     const contact::TargetContact& target = task_->target_contact();
     double deeper = motion->kind == action::Kind::insertion ? 0.0 : misses_[pose];
@@ -102,6 +108,7 @@ std::size_t Predictions::first_contact(Row& row, std::size_t pose) const {
 
 std::size_t Predictions::first_near(Row& row, std::size_t pose) const {
   std::int32_t& stored = row.first_near[pose];
+  if (stored < 0) cancellation_.check();
   if (stored < 0 && blur_ > 0.0)
     stored = static_cast<std::int32_t>(task_->target_contact()
                                            .first_within(row.motion->bodies, poses_[pose], blur_)

@@ -6,6 +6,7 @@
 
 #include "action/motion.hpp"
 #include "support/bitset.hpp"
+#include "support/cancellation.hpp"
 
 namespace tactus::solver {
 
@@ -32,11 +33,13 @@ class Predictions {
   /// blur: one that goes along what the robot has just touched, mostly. Whether that ends in a contact says nothing of
   /// use about where the target is.
   ///
-  /// `threads` that look at the poses of a motion, as in `support::for_ranges`; the answers are the same.
+  /// `threads` that look at the poses of a motion, as in `support::for_ranges`; the answers are the same. All that
+  /// looks at poses throws `Cancelled` when it is to end; what was found until then is kept.
   Predictions(std::shared_ptr<const action::Task> task, std::vector<geometry::Pose> poses, double blur = 0.0,
-              std::vector<double> misses = {}, int threads = 1);
+              std::vector<double> misses = {}, int threads = 1, support::Cancellation cancellation = {});
 
   const std::vector<geometry::Pose>& poses() const { return poses_; }
+  const support::Cancellation& cancellation() const { return cancellation_; }
 
   /// What was found for an earlier planning call, of the poses that are the same and off by as much, on the motions
   /// that it asked for and somebody else still holds. The same answers as without.
@@ -88,6 +91,7 @@ class Predictions {
   std::vector<double> misses_;  ///< by pose
   double blur_;
   int threads_;
+  support::Cancellation cancellation_;
   std::unordered_map<const action::Motion*, Row> rows_;
 };
 

@@ -45,7 +45,8 @@ RatePolicy::RatePolicy(std::shared_ptr<const action::Task> task, Predictions& pr
       motions_(std::move(motions)),
       attempts_(std::move(attempts)),
       served_(std::move(served)),
-      dimensions_(dimensions) {
+      dimensions_(dimensions),
+      cancellation_(predictions.cancellation()) {
   for (const MotionPtr& motion : motions_) {
     first_contacts_.push_back(&predictions.first_contacts(motion));
     first_nears_.push_back(&predictions.first_nears(motion));
@@ -104,6 +105,7 @@ double RatePolicy::attempt_cost(const Pose& base_from_tool, const Attempt& attem
 }
 
 const RatePolicy::Plan& RatePolicy::plan(const Members& members, const Pose& base_from_tool) {
+  cancellation_.check();
   Bitset set(attempts_.size());
   for (const std::size_t member : members) set.set(member);
   const bool regards_lead = members.size() >= many_members;

@@ -27,7 +27,8 @@ class RatePolicy {
  public:
   using Members = std::vector<std::size_t>;  ///< poses, ascending
 
-  /// By pose: the attempt at it, and the poses that it serves. `dimensions`: of the poses, as for `least_group`.
+  /// By pose: the attempt at it, and the poses that it serves. `dimensions`: of the poses, as for `least_group`. This
+  /// and what follows throw `Cancelled` when the predictions do.
   RatePolicy(std::shared_ptr<const action::Task> task, Predictions& predictions, std::vector<action::MotionPtr> motions,
              std::vector<Attempt> attempts, std::vector<support::Bitset> served, int dimensions);
 
@@ -80,6 +81,7 @@ class RatePolicy {
   std::vector<Attempt> attempts_;
   std::vector<support::Bitset> served_;
   int dimensions_;
+  support::Cancellation cancellation_;
   std::unordered_map<support::Hash128, Plans, HashOf> plans_;
   std::vector<std::pair<std::int32_t, std::size_t>> sorted_;  ///< by the motion in hand: first contact, pose
 };

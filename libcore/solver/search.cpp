@@ -206,14 +206,13 @@ int Search::follow(int index, std::size_t choice, std::size_t outcome) {
 }
 
 int Search::intern(BeliefStatePtr state) {
-  const auto [entry, is_new] = index_.try_emplace(state->hash(), static_cast<int>(nodes_.size()));
-  if (is_new) {
-    Node node;
-    node.value = state->heuristic();
-    node.state = std::move(state);
-    nodes_.push_back(std::move(node));
-  }
-  return entry->second;
+  const support::Hash128 hash = state->hash();
+  if (const auto known = index_.find(hash); known != index_.end()) return known->second;
+  Node node;
+  node.value = state->heuristic();
+  node.state = std::move(state);
+  nodes_.push_back(std::move(node));
+  return index_.emplace(hash, static_cast<int>(nodes_.size()) - 1).first->second;
 }
 
 }  // namespace tactus::solver

@@ -19,7 +19,6 @@ using geometry::Vector3;
 using support::Bitset;
 
 constexpr double blocked = 1e300;
-constexpr double at_place = 0.01;       // m, as `Lattice::passes` has it
 constexpr double near_by = 0.08;        // m to the nearest place, which a walk may begin at then
 constexpr int longest_walk = 160;       // steps after the first that touches something
 constexpr double least_missing = 0.02;  // share of the poses for which a walk does not go on
@@ -78,6 +77,7 @@ Walks::Step Walks::made_step(std::size_t place, std::size_t direction) const {
     made.cost = with_actions(task_->options().cost.metre * lattice_->pitch());
     return made;
   }
+  predictions_.cancellation().check();
   const MotionPtr motion = lattice_->step(place, direction);
   if (!motion) return made;
   made.cost = with_actions(motion->cost_to.back());
@@ -98,11 +98,12 @@ double Walks::entry_cost(const Pose& base_from_tool, std::size_t place) const {
 
 std::vector<MotionPtr> Walks::steps_from(const robot::JointVector& q) const {
   const auto any = [](std::size_t) { return true; };
-  const auto here = nearest_place(*lattice_, task_->base_from_tool(q).translation(), at_place, any);
+  const auto here = nearest_place(*lattice_, task_->base_from_tool(q).translation(), Lattice::same_place, any);
   std::vector<MotionPtr> steps;
   for (std::size_t direction = 0; here && direction < Lattice::directions; ++direction) {
     const auto next = lattice_->neighbour(*here, direction);
     if (!next) continue;
+    predictions_.cancellation().check();
     auto path = task_->straight_path(q, lattice_->base_from_tool(*next), task_->options().motion.step);
     if (!path || path->size() < 2) continue;
     action::Motion step;
@@ -200,6 +201,7 @@ class Walks::Beam {
 
   /// One more step. Who stands where somebody stood before it, and has touched the same, does not go on.
   void go_on() {
+    walks_.predictions_.cancellation().check();
     std::vector<Stand> next = steps_on();
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < next.size(); ++i) order.emplace_back(promise(next[i]), i);

@@ -5,10 +5,8 @@
 
 namespace tactus::support {
 
-Deadline::Deadline(double seconds, std::uint64_t expansions, const std::atomic<bool>* cancelled)
-    : seconds_(seconds), limit_(expansions), cancelled_(cancelled) {}
-
-bool Deadline::cancelled() const { return cancelled_ != nullptr && cancelled_->load(std::memory_order_relaxed); }
+Deadline::Deadline(double seconds, std::uint64_t expansions, Cancellation cancellation)
+    : seconds_(seconds), limit_(expansions), cancellation_(cancellation) {}
 
 bool Deadline::spent() const { return cancelled() || used_ >= limit_ || elapsed_seconds() >= seconds_; }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <limits>
+
+#include "support/cancellation.hpp"
 
 namespace tactus::support {
 
@@ -14,12 +15,12 @@ class Deadline {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `cancelled` (may be null) is read only, and must outlive the deadline.
-  Deadline(double seconds, std::uint64_t expansions, const std::atomic<bool>* cancelled = nullptr);
+  Deadline(double seconds, std::uint64_t expansions, Cancellation cancellation = {});
   static Deadline unlimited() { return {std::numeric_limits<double>::infinity(), UINT64_MAX}; }
 
   void count_expansion() { ++used_; }
-  bool cancelled() const;
+  const Cancellation& cancellation() const { return cancellation_; }
+  bool cancelled() const { return cancellation_.requested(); }
   bool spent() const;            ///< out of time, out of expansions, or cancelled
   double used_fraction() const;  ///< of the tighter budget, in [0, 1]; 0 without one, 1 if cancelled
   double elapsed_seconds() const;
@@ -30,7 +31,7 @@ class Deadline {
   double seconds_;
   std::uint64_t limit_;
   std::uint64_t used_ = 0;
-  const std::atomic<bool>* cancelled_;
+  Cancellation cancellation_;
 };
 
 }  // namespace tactus::support

@@ -171,6 +171,39 @@ TEST(Cells, ThatAreFineAreNotSplitAndTheOthersAsFarAsThereIsRoom) {
   EXPECT_GT(split, 3);
 }
 
+TEST(Cells, SplitInSeveralGoesEndAsThoseThatAreSplitInOneAndHoldTheTruthAllAlong) {
+  constexpr std::size_t room = 100000, most_tests = 400;
+  constexpr double fine_radius = 0.0015;
+  int goes = 0, compared = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    observe(seed, 3, [&](const Belief& belief, const PoseVector& truth) {
+      const std::vector<belief::Trace>& history = belief.history();
+      const auto traces = belief::believed(history);
+      CellBelief at_once(task(), {.most = room});
+      CellBelief bit_by_bit(task(), {.most = room, .most_trace_tests = most_tests});
+      if (!at_once.update(task(), traces) || at_once.grid()) return;
+      ASSERT_TRUE(bit_by_bit.update(task(), traces));
+      const auto is_fine = [&](const Cell& cell) { return at_once.radius(cell) <= fine_radius; };
+      ASSERT_TRUE(at_once.refine(task(), history, is_fine));
+      ASSERT_TRUE(at_once.all_of(is_fine));
+      for (; !bit_by_bit.all_of(is_fine); ++goes) {
+        const std::size_t before = bit_by_bit.size();
+        ASSERT_TRUE(bit_by_bit.refine(task(), history, is_fine));
+        ASSERT_LE(bit_by_bit.size(), before + most_tests / history.size() / 2 + 1);
+        ASSERT_GE(holding(bit_by_bit, truth), 1);
+      }
+      const auto centres = [](const CellBelief& cells) {
+        std::set<PoseVector> found;
+        cells.for_each([&](const Cell& cell) { found.insert(cell.centre); });
+        return found;
+      };
+      ASSERT_EQ(centres(bit_by_bit), centres(at_once));
+      ++compared;
+    });
+  EXPECT_GT(compared, 3);
+  EXPECT_GT(goes, 5 * compared);
+}
+
 TEST(Cells, DrawnPosesLieInCellsAndReproduceTheHistoryOrComeNearButForAnEighth) {
   Rng rng(9);
   constexpr std::size_t count = 21;

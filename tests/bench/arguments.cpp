@@ -27,7 +27,8 @@ std::vector<Work> works_of(const std::string& suite) {
   if (suite == "belief") return belief_works();
   if (suite == "poses") return pose_works();
   if (suite == "walks") return walk_works();
-  throw UsageError("found '" + suite + "', expected contact, voxels, belief, poses or walks");
+  if (suite == "cancel") return cancel_works();
+  throw UsageError("found '" + suite + "', expected contact, voxels, belief, poses, walks or cancel");
 }
 
 std::vector<Work> chosen(const std::vector<Work>& works, const std::string& names) {
@@ -47,7 +48,7 @@ std::vector<Work> chosen(const std::vector<Work>& works, const std::string& name
 }  // namespace
 
 const char* const usage =
-    "usage: tactus-bench contact|voxels|belief|poses|walks [options]\n"
+    "usage: tactus-bench contact|voxels|belief|poses|walks|cancel [options]\n"
     "\n"
     "Times tactus against its baseline (brute-force FCL for contact) in one run, on the same pairs, one thread each, "
     "and\n"
@@ -89,7 +90,8 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
     else
       arguments.suite = word;
   }
-  if (arguments.suite.empty()) throw UsageError("expected contact, voxels, belief, poses or walks; --help tells more");
+  if (arguments.suite.empty())
+    throw UsageError("expected contact, voxels, belief, poses, walks or cancel; --help tells more");
   arguments.works = works_of(arguments.suite);
   if (arguments.works.empty()) throw UsageError(arguments.suite + ": not there yet");
   if (some) arguments.works = chosen(arguments.works, names);

@@ -2,41 +2,22 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <limits>
+#include <map>
 #include <sstream>
 
+#include "bench/episodes.hpp"
 #include "bench/timing.hpp"
 #include "bench/work.hpp"
-#include "scenario/scenario.hpp"
-#include "simulation/world.hpp"
 
 namespace tactus::bench {
 namespace {
 
 using belief::Belief;
 
-constexpr std::size_t contacts[] = {4, 8, 12, 16};
-constexpr std::size_t seeds = 100;  // that are brought into agreement with a history
-constexpr std::size_t draws = 20;   // of cells, for each of these
-constexpr std::uint64_t episodes = 3;
-constexpr std::size_t most_actions = 60;
+constexpr std::size_t seeds = 100;              // that are brought into agreement with a history
+constexpr std::size_t draws = 20;               // of cells, for each of these
 constexpr double nearly = 0.001;                // m
 constexpr double beside_by[] = {0.0003, 0.01};  // m off the true pose, for seeds beside it
-
-std::size_t met(const Belief& belief) {
-  std::size_t count = 0;
-  for (const belief::Trace& trace : belief.history()) count += trace.contact;
-  return count;
-}
-
-solver::PlannerOptions short_sighted(std::uint64_t seed) {
-  solver::PlannerOptions options;
-  options.solver = solver::Solver::rate;
-  options.budget_seconds = std::numeric_limits<double>::infinity();
-  options.budget_expansions = 1;
-  options.seed = seed;
-  return options;
-}
 
 /// Poses of the cells that no motion that met nothing would have met.
 std::vector<geometry::PoseVector> seeds_of(const Belief& belief, support::Rng& rng) {
@@ -94,43 +75,26 @@ struct Agreeing {
   }
 };
 
-/// Episodes at random true poses, and poses brought into agreement with what was felt up to their fourth contact, ...
+/// Poses brought into agreement with what was felt in some episodes, up to their fourth contact, ...
 std::vector<Row> poses(const std::string& name, const Options& options) {
-  const auto scenario = scenario::load(TACTUS_SOURCE_DIR "/examples/scenarios/" + name + ".yaml");
-  const auto model = scenario->model_of(belief::Kind::particles);
-  std::array<Agreeing, std::size(contacts)> after, beside;
-  for (std::uint64_t episode = 0; episode < episodes; ++episode) {
-    support::Rng rng(options.seed + episode), rng_beside(support::mix(options.seed + episode));
-    const geometry::Pose truth = model->task->scene().prior.sample(rng);
-    simulation::World world(model, truth);
-    Belief belief(model, model->task->scene().start);
-    solver::Planner planner(model, short_sighted(options.seed + episode));
-    for (std::size_t action = 0, next = 0; action < most_actions && next < std::size(contacts); ++action) {
-      const solver::Answer answer = planner.query(belief);
-      if (answer.kind != solver::Answer::Kind::action) break;
-      belief.step(*answer.action, world.execute(*answer.action));
-      if (!belief.history().back().contact || met(belief) != contacts[next]) continue;
-      after[next].add(belief, seeds_of(belief, rng));
-      beside[next++].add(belief, seeds_beside(belief, truth, rng_beside));
-    }
-  }
+  std::map<std::size_t, Agreeing> after, beside;
+  std::map<std::uint64_t, support::Rng> rng_beside;
+  for_each_state(model_of(name), options.seed, [&](const State& state, support::Rng& rng) {
+    auto& own = rng_beside.try_emplace(state.episode, support::mix(options.seed + state.episode)).first->second;
+    after[state.contacts].add(state.belief, seeds_of(state.belief, rng));
+    beside[state.contacts].add(state.belief, seeds_beside(state.belief, state.truth, own));
+  });
   std::vector<Row> rows;
-  for (std::size_t i = 0; i < std::size(contacts); ++i) {
-    if (after[i].tried == 0) continue;
-    const std::string work = name + "-" + std::to_string(contacts[i]);
-    rows.push_back(after[i].row(work));
-    rows.push_back(beside[i].row(work + "-beside"));
+  for (const auto& [contacts, agreeing] : after) {
+    const std::string work = name + "-" + std::to_string(contacts);
+    rows.push_back(agreeing.row(work));
+    rows.push_back(beside[contacts].row(work + "-beside"));
   }
   return rows;
 }
 
 }  // namespace
 
-std::vector<Work> pose_works() {
-  std::vector<Work> works;
-  for (const std::string name : {"shelf_3d", "base_4d", "sim_5d"})
-    works.push_back({name, [name](const Options& options) { return poses(name, options); }});
-  return works;
-}
+std::vector<Work> pose_works() { return on_scenarios(poses); }
 
 }  // namespace tactus::bench

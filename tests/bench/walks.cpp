@@ -65,11 +65,6 @@ std::vector<Row> walks(const std::string& name, const Options& options) {
 
 }  // namespace
 
-std::vector<Work> walk_works() {
-  std::vector<Work> works;
-  for (const std::string name : {"shelf_3d", "base_4d", "sim_5d"})
-    works.push_back({name, [name](const Options& options) { return walks(name, options); }});
-  return works;
-}
+std::vector<Work> walk_works() { return on_scenarios(walks); }
 
 }  // namespace tactus::bench

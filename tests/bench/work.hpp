@@ -22,11 +22,15 @@ struct Work {
   std::function<std::vector<Row>(const Options&)> run;
 };
 
+/// The same work on each of the scenarios that true poses are drawn for, named as they are.
+std::vector<Work> on_scenarios(std::vector<Row> (*run)(const std::string& scenario, const Options&));
+
 std::vector<Work> contact_works();  ///< with those on the lattice at the end
 std::vector<Work> lattice_works();
 std::vector<Work> voxel_works();
 std::vector<Work> belief_works();
 std::vector<Work> pose_works();
 std::vector<Work> walk_works();
+std::vector<Work> cancel_works();
 
 }  // namespace tactus::bench

@@ -226,6 +226,31 @@ TEST(Cancel, EndsAQueryThatHasNoBudgetToSpend) {
   EXPECT_EQ(answer.action != nullptr, answer.kind == Answer::Kind::action);
 }
 
+TEST(Cancel, AtAnyTimeLeavesAPlannerThatPlans) {
+  Rng rng(5);
+  const PlainWorld world(*task(), task()->scene().prior.sample(rng));
+  for (const Solver solver : {Solver::brtdp_bel, Solver::rtdp_bel, Solver::rate}) {
+    Belief belief(model(Kind::particles), task()->scene().start);
+    Planner planner(model(Kind::particles), within(4, solver));
+    for (int steps = 0; steps < 6; ++steps) {
+      std::atomic<bool> done{false};
+      std::thread running([&] {
+        const Answer answer = planner.query(belief);
+        EXPECT_EQ(answer.action != nullptr, answer.kind == Answer::Kind::action);
+        done = true;
+      });
+      std::this_thread::sleep_for(std::chrono::duration<double>(rng.uniform(0.0, 0.1)));
+      for (; !done; std::this_thread::sleep_for(std::chrono::milliseconds(1))) planner.cancel();
+      running.join();
+      const Answer answer = planner.query(belief);
+      if (answer.kind != Answer::Kind::action) break;
+      ASSERT_EQ(answer.action->path.front(), belief.configuration());
+      ASSERT_GT(answer.action->path.size(), 1u);
+      belief.step(*answer.action, world.execute(*answer.action));
+    }
+  }
+}
+
 TEST(Cancel, WithoutAQueryChangesNothing) {
   const Belief belief(model(Kind::particles), task()->scene().start);
   Planner calm(model(Kind::particles), within(10)), cancelled(model(Kind::particles), within(10));
