@@ -10,8 +10,8 @@ namespace tactus::action {
 /// `probe_spacing` apart (fewer and evenly spaced where the region is narrow), in up to three `layers` where it is
 /// deep, and pokes to its far side on a grid twice as wide. `region` is a box in the search frame; `most` bounds the
 /// number of lines per side. Each sets out from the region's retreat plane. What the known world or the limits block is
-/// left out. `near`: the configuration whose posture is kept. Throws
-/// `Cancelled`.
+/// left out. `near`: the configuration whose posture is kept.
+/// Throws `Cancelled`.
 std::vector<MotionPtr> probes(const Task& task, const geometry::Box& region, const JointVector& near, int most = 7,
                               const support::Cancellation& cancellation = {});
 
