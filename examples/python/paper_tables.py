@@ -99,7 +99,7 @@ def arguments(words=None):
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of the first pose (1)")
     parser.add_argument("--solvers", default=SOLVERS, metavar="A,B,...", help=f"the one to measure by first ({SOLVERS})")
     parser.add_argument("--expansions", type=int, default=8, metavar="E",
-                        help="beliefs expanded in a planning call (8: what a second buys brtdp-bel and rtdp-bel on one core)")
+                        help="beliefs expanded in a planning call (8: about what a second buys brtdp-bel on one core)")
     parser.add_argument("--scenario", default="sim_5d", metavar="NAME", help="of examples/scenarios (sim_5d, the paper's simulation)")
     parser.add_argument("--jobs", type=int, default=2, metavar="J", help="trials at a time (2)")
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build" / "paper", metavar="DIR", help="for results and tables (build/paper)")
