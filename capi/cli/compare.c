@@ -57,12 +57,31 @@ static int count_trials(const comparison* c) {
   return count;
 }
 
-static bool belongs(const compare* c, const comparison* found, const run_setting* setting) {
+static bool asks_for_all(compare* c, const comparison* found) {
+  for (int s = 0; s < found->solver_count; ++s)
+    if (find_solver(&c->comparison, found->results[s].setting.solver) == NULL) return false;
+  return true;
+}
+
+/* More solvers may be asked for than the file has. */
+static bool belongs(compare* c, const comparison* found, const run_setting* setting) {
   const trial_options* o = &c->options;
-  if (!settings_agree(o->json, &found->setting, setting)) return false;
+  run_setting expected = *setting;
+  if (asks_for_all(c, found)) memcpy(expected.solver, found->setting.solver, sizeof expected.solver);
+  if (!settings_agree(o->json, &found->setting, &expected)) return false;
   for (int s = 0; s < found->solver_count; ++s)
     if (!seeds_belong(o->json, &found->results[s], o->seed, o->trials)) return false;
   return true;
+}
+
+static void move_in(compare* c, comparison* found) {
+  for (int s = 0; s < found->solver_count; ++s) {
+    run_result* run = &found->results[s];
+    run_result* place = find_solver(&c->comparison, run->setting.solver);
+    place->trials = run->trials;
+    place->count = run->count;
+    place->room = run->room;
+  }
 }
 
 /* The trials that the file has, if they are of this comparison. */
@@ -75,12 +94,12 @@ static bool take_over(compare* c, const run_setting* setting) {
     free_comparison(&found);
     return false;
   }
-  if (o->phase == phase_poses) forget_half_done(&found); /* their beliefs were not kept */
   if (count_trials(&found) > 0)
-    c->comparison = found;
+    move_in(c, &found);
   else
     free_comparison(&found);
-  fprintf(stderr, "%s: %d of %d trials are there\n", o->json, count_trials(&found),
+  if (o->phase == phase_poses) forget_half_done(&c->comparison); /* their beliefs were not kept */
+  fprintf(stderr, "%s: %d of %d trials are there\n", o->json, count_trials(&c->comparison),
           c->comparison.solver_count * o->trials);
   return true;
 }

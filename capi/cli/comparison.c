@@ -7,10 +7,10 @@
 
 #include "student.h"
 
-static bool is_named(const comparison* c, const char* name) {
+run_result* find_solver(comparison* c, const char* name) {
   for (int s = 0; s < c->solver_count; ++s)
-    if (strcmp(c->results[s].setting.solver, name) == 0) return true;
-  return false;
+    if (strcmp(c->results[s].setting.solver, name) == 0) return &c->results[s];
+  return NULL;
 }
 
 const char* name_solvers(const char* names, comparison* c) {
@@ -20,7 +20,7 @@ const char* name_solvers(const char* names, comparison* c) {
     at += *at == ',';
     char name[solvers_room];
     snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
-    if (is_named(c, name)) return "each solver once";
+    if (find_solver(c, name) != NULL) return "each solver once";
     if (c->solver_count == most_solvers) return "at most 16 solvers";
     strcpy(c->results[c->solver_count++].setting.solver, name);
   }

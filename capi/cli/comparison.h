@@ -16,6 +16,8 @@ typedef struct {
 /* Makes room for the solvers named, with commas between them. NULL; or what was expected instead. */
 const char* name_solvers(const char* names, comparison* c);
 
+run_result* find_solver(comparison* c, const char* name); /* NULL if it is not named */
+
 void free_comparison(comparison* c);
 
 /* Takes out the trials of poses at which not all solvers had theirs. */

@@ -89,10 +89,27 @@ static void print_progress(const episode* e, const char* kind) {
   const trial_result* r = e->result;
   const bool voxels = e->summary.phase == TACTUS_PHASE_VOXELS;
   fprintf(stderr,
-          "seed %-4" PRIu64 " %-9s %3.0f  %-9s  %-10s  %s %6" PRIu64 "  %5.1f bits  cost %7.3f  planning %6.2f s%s\n",
+          "seed %-4" PRIu64 " %-9s %3.0f  %-9s  %-10s  %s %6" PRIu64
+          "  %5.1f bits  cost %7.3f  planning %6.2f s  stepping %6.2f s%s\n",
           r->seed, solver_name(e), r->whole.actions, kind, e->observation.contact ? "contact" : "no contact",
           voxels ? "voxels" : "cells ", voxels ? e->summary.possibly_occupied : e->summary.cells, e->summary.bits,
-          r->whole.cost_m, r->whole.planning_s, e->summary.health == TACTUS_HEALTH_GOOD ? "" : "  contradicted");
+          r->whole.cost_m, r->whole.planning_s, r->stepping_s,
+          e->summary.health == TACTUS_HEALTH_GOOD ? "" : "  contradicted");
+}
+
+static double seconds_now(void) {
+  struct timespec now = {0, 0};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static tactus_status take_in(episode* e, const tactus_action* action) {
+  const double began = seconds_now();
+  const tactus_status status = tactus_belief_step(e->belief, action, &e->observation);
+  const double seconds = seconds_now() - began;
+  e->result->stepping_s += seconds;
+  e->result->slowest_step_s = fmax(e->result->slowest_step_s, seconds);
+  return status;
 }
 
 /* Executes an action, and takes in what is seen. */
@@ -103,7 +120,7 @@ static tactus_status perform(episode* e, const tactus_action* action) {
   tactus_action_properties_init(&properties, sizeof properties);
   tactus_status status = tactus_action_info(action, &properties);
   if (status == TACTUS_OK) status = tactus_world_execute(e->world, action, &e->observation);
-  if (status == TACTUS_OK) status = tactus_belief_step(e->belief, action, &e->observation);
+  if (status == TACTUS_OK) status = take_in(e, action);
   if (status == TACTUS_OK) status = tactus_belief_contains(e->belief, r->true_pose, &kept);
   if (status != TACTUS_OK) return status;
   r->whole.actions += 1.0;

@@ -36,6 +36,7 @@ const char* const usage =
     "  --tables FILE              tables of contact: taken in if FILE is there, and saved at the end for the next "
     "start\n"
     "  --resume                   run only the trials that FILE does not have; its others must be of the same options\n"
+    "                             (to compare, with more solvers than before too)\n"
     "\n"
     "of run alone:\n"
     "  --solver NAME              rtdp-bel, rtdp-inad, rtdp-ad, brtdp-bel, tbl, frontier or rate (the scenario's)\n"

@@ -90,6 +90,8 @@ run_summary summarise(const run_result* run) {
     add_effort(&sum.mean, &trial->whole, share);
     sum.slowest_planning_s = fmax(sum.slowest_planning_s, trial->slowest_planning_s);
     sum.late_plans += trial->late_plans;
+    sum.stepping_s += share * trial->stepping_s;
+    sum.slowest_step_s = fmax(sum.slowest_step_s, trial->slowest_step_s);
   }
   sum.certificate = median_certificate(run);
   return sum;

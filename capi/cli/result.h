@@ -52,6 +52,8 @@ typedef struct {
   uint64_t expansions;       /* beliefs expanded */
   double slowest_planning_s; /* of a call */
   int late_plans;            /* calls that took over 5 % longer than the budget in seconds, if there is one */
+  double stepping_s;         /* what taking in observations took */
+  double slowest_step_s;     /* of these */
   double poses_lower_bound;  /* of the first plan on a belief of poses; and its value, which the solver that bounds */
   double poses_value;        /* costs is never above */
   double position_error_m;   /* of the belief's mean */
@@ -92,6 +94,7 @@ typedef struct {
   double contacts, expansions;
   double slowest_planning_s;
   int late_plans;
+  double stepping_s, slowest_step_s;
   double certificate; /* median of value / lower bound at the first plans on poses */
 } run_summary;
 

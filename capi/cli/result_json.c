@@ -49,6 +49,8 @@ static const json_member of_trial[] = {
     {"phase1_planning_s", member_double, offsetof(trial_result, voxels.planning_s), 0},
     {"slowest_planning_s", member_double, offsetof(trial_result, slowest_planning_s), 0},
     {"late_plans", member_int, offsetof(trial_result, late_plans), 0},
+    {"stepping_s", member_double, offsetof(trial_result, stepping_s), 0},
+    {"slowest_step_s", member_double, offsetof(trial_result, slowest_step_s), 0},
     {"poses_lower_bound", member_double, offsetof(trial_result, poses_lower_bound), 0},
     {"poses_value", member_double, offsetof(trial_result, poses_value), 0},
 };
@@ -67,6 +69,8 @@ static const json_member of_summary[] = {
     {"mean_expansions", member_double, offsetof(run_summary, expansions), 0},
     {"slowest_planning_s", member_double, offsetof(run_summary, slowest_planning_s), 0},
     {"late_plans", member_int, offsetof(run_summary, late_plans), 0},
+    {"mean_stepping_s", member_double, offsetof(run_summary, stepping_s), 0},
+    {"slowest_step_s", member_double, offsetof(run_summary, slowest_step_s), 0},
     {"certificate", member_double, offsetof(run_summary, certificate), 0},
 };
 

@@ -36,4 +36,6 @@ void print_table(FILE* out, const run_result* run) {
   else
     fprintf(out, "%d of %.0f took over 5 %% longer than the %g s allowed\n", summary.late_plans,
             mean->planner_calls * run->count, run->setting.budget_seconds);
+  fprintf(out, "taking in what was felt: %.3f s an observation, the slowest %.2f s\n",
+          mean->actions > 0.0 ? summary.stepping_s / mean->actions : 0.0, summary.slowest_step_s);
 }

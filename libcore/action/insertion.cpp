@@ -42,7 +42,7 @@ MotionPtr attempt(const Task& task, const Pose& base_from_target, const JointPat
 }  // namespace
 
 MotionPtr insertion(const Task& task, const Pose& base_from_target, const JointVector& near, std::size_t seat,
-                    std::optional<double> plane) {
+                    std::optional<double> plane, const support::Cancellation& cancellation) {
   const MotionOptions& options = task.options().motion;
   const scene::Scene& scene = task.scene();
   const Pose base_from_seated = scene.seated(base_from_target, seat);
@@ -54,24 +54,25 @@ MotionPtr insertion(const Task& task, const Pose& base_from_target, const JointV
 
   const auto start = task.posture(backed_off(base_from_seated, axis, to_plane), near);
   if (!start) return nullptr;
-  const auto approach =
-      task.straight_path(*start, backed_off(base_from_seated, axis, scene.target.approach_depth), options.step);
+  const auto approach = task.straight_path(*start, backed_off(base_from_seated, axis, scene.target.approach_depth),
+                                           options.step, cancellation);
   if (!approach) return nullptr;
-  const auto entry = task.straight_path(approach->back(), base_from_seated, options.insertion_step);
+  const auto entry = task.straight_path(approach->back(), base_from_seated, options.insertion_step, cancellation);
   if (!entry) return nullptr;
   return attempt(task, base_from_target, *approach, *entry, true);
 }
 
-MotionPtr near_insertion(const Task& task, const Pose& base_from_target, const JointVector& q, std::size_t seat) {
+MotionPtr near_insertion(const Task& task, const Pose& base_from_target, const JointVector& q, std::size_t seat,
+                         const support::Cancellation& cancellation) {
   const MotionOptions& options = task.options().motion;
   const Pose base_from_seated = task.scene().seated(base_from_target, seat);
   const Vector3 axis = base_from_target.linear() * task.scene().target.approach_axis;
   const NearWay way = near_way(task, task.base_from_tool(q), base_from_seated, axis);
-  const auto back = task.straight_path(q, way.base_from_back, options.step);
+  const auto back = task.straight_path(q, way.base_from_back, options.step, cancellation);
   if (!back) return nullptr;
-  const auto across = task.straight_path(back->back(), way.base_from_ready, options.step);
+  const auto across = task.straight_path(back->back(), way.base_from_ready, options.step, cancellation);
   if (!across) return nullptr;
-  const auto entry = task.straight_path(across->back(), base_from_seated, options.insertion_step);
+  const auto entry = task.straight_path(across->back(), base_from_seated, options.insertion_step, cancellation);
   if (!entry) return nullptr;
   return attempt(task, base_from_target, joined(*back, *across), *entry, false);
 }

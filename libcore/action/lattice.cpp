@@ -97,28 +97,29 @@ std::optional<std::size_t> Lattice::neighbour(std::size_t place, std::size_t dir
   return goes_back(direction) ? place - strides[axis] : place + strides[axis];
 }
 
-MotionPtr Lattice::step(std::size_t place, std::size_t direction) const {
+MotionPtr Lattice::step(std::size_t place, std::size_t direction, const support::Cancellation& cancellation) const {
   const std::lock_guard lock(mutex_);
-  return kept_step(place, direction);
+  return kept_step(place, direction, cancellation);
 }
 
-const MotionPtr& Lattice::kept_step(std::size_t place, std::size_t direction) const {
+const MotionPtr& Lattice::kept_step(std::size_t place, std::size_t direction,
+                                    const support::Cancellation& cancellation) const {
   std::optional<MotionPtr>& kept = steps_[place * directions + direction];
-  if (!kept) kept = made(place, direction);
+  if (!kept) kept = made(place, direction, cancellation);
   return *kept;
 }
 
 /// Those that go back along an axis are the way back of those that go forth, whichever is asked for first.
-MotionPtr Lattice::made(std::size_t place, std::size_t direction) const {
+MotionPtr Lattice::made(std::size_t place, std::size_t direction, const support::Cancellation& cancellation) const {
   const auto next = neighbour(place, direction);
   if (!next) return nullptr;
   if (goes_back(direction)) {
-    const MotionPtr& forth = kept_step(*next, opposite(direction));
+    const MotionPtr& forth = kept_step(*next, opposite(direction), cancellation);
     return forth ? reversed(task_, *forth) : nullptr;
   }
   const auto start = task_.posture(places_[place], q_);
   if (!start) return nullptr;
-  auto path = task_.straight_path(*start, places_[*next], task_.options().motion.step);
+  auto path = task_.straight_path(*start, places_[*next], task_.options().motion.step, cancellation);
   if (!path || path->size() < 2) return nullptr;
   Motion motion;
   motion.path = std::move(*path);

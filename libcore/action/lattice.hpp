@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "action/motion.hpp"
+#include "support/cancellation.hpp"
 
 namespace tactus::action {
 
@@ -35,12 +36,12 @@ class Lattice {
   /// The next place that way; none at the edge.
   std::optional<std::size_t> neighbour(std::size_t place, std::size_t direction) const;
 
-  /// The move there; null where the known world or the limits block it.
-  MotionPtr step(std::size_t place, std::size_t direction) const;
+  /// The move there; null where the known world or the limits block it. Throws `Cancelled`.
+  MotionPtr step(std::size_t place, std::size_t direction, const support::Cancellation& cancellation = {}) const;
 
  private:
-  const MotionPtr& kept_step(std::size_t place, std::size_t direction) const;
-  MotionPtr made(std::size_t place, std::size_t direction) const;
+  const MotionPtr& kept_step(std::size_t place, std::size_t direction, const support::Cancellation& cancellation) const;
+  MotionPtr made(std::size_t place, std::size_t direction, const support::Cancellation& cancellation) const;
 
   const Task& task_;
   JointVector q_;

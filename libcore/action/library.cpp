@@ -122,6 +122,7 @@ JointPath ActionLibrary::as_far_as_plane(const JointPath& way_back, const JointV
 /// `path` and the way from its end: out along the tool's axis, and across, to `start` or whole turns of joints from it.
 JointPath ActionLibrary::lead_in(JointPath path, const JointVector& start, const support::Deadline& deadline) const {
   const double step = task_.options().motion.step;
+  const support::Cancellation& cancellation = deadline.cancellation();
   const JointVector q = path.back();
   if (q == start) return path;
   const Pose here = task_.base_from_tool(q);
@@ -131,9 +132,10 @@ JointPath ActionLibrary::lead_in(JointPath path, const JointVector& start, const
   const double retreat = past_plane(q, start);
   if (retreat > 1e-6 && out.dot(axis) > least_retreat) {
     back.translation() -= retreat / out.dot(axis) * out;
-    if (const auto leg = task_.straight_path(q, task_.at_site(here, back), step)) path = joined(std::move(path), *leg);
+    if (const auto leg = task_.straight_path(q, task_.at_site(here, back), step, cancellation))
+      path = joined(std::move(path), *leg);
   }
-  if (const auto across = task_.straight_path(path.back(), goal, step)) {
+  if (const auto across = task_.straight_path(path.back(), goal, step, cancellation)) {
     const JointVector end = start + whole_turns(across->back() - start);
     if ((across->back() - end).cwiseAbs().maxCoeff() < same_configuration &&
         stands_alike(*task_.scene().robot, start, end)) {

@@ -90,7 +90,7 @@ std::vector<double> layers(const Task& task, const Box& region, double first) {
 }
 
 MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3>& positions, double turn,
-                          const JointVector& near) {
+                          const JointVector& near, const support::Cancellation& cancellation) {
   const MotionOptions& options = task.options().motion;
   const std::vector<Pose> goals = on_sites(task, positions, turn);
   const auto start = task.posture(goals.front(), near);
@@ -100,7 +100,7 @@ MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3
   motion.anchored = true;
   motion.path = {*start};
   for (std::size_t i = 1; i < goals.size(); ++i) {
-    const auto leg = task.straight_path(motion.path.back(), goals[i], options.step);
+    const auto leg = task.straight_path(motion.path.back(), goals[i], options.step, cancellation);
     if (!leg) return nullptr;
     motion.path = joined(std::move(motion.path), *leg);
   }
@@ -114,8 +114,8 @@ std::vector<MotionPtr> probes(const Task& task, const Box& region, const JointVe
   const double plane = retreat_plane(task, region);
   std::vector<MotionPtr> motions;
   const auto add = [&](Kind kind, const std::vector<Vector3>& positions) {
-    cancellation.check();
-    if (MotionPtr motion = anchored_motion(task, kind, positions, 0.0, near)) motions.push_back(std::move(motion));
+    if (MotionPtr motion = anchored_motion(task, kind, positions, 0.0, near, cancellation))
+      motions.push_back(std::move(motion));
   };
   const auto with_tip_at = [&](double depth) {
     return std::min(region.low.z() + depth, region.high.z()) - frame.tool_extent.high.z();

@@ -30,8 +30,8 @@ bool in_same_posture(const JointVector& a, const JointVector& b);
 std::vector<double> layers(const Task& task, const geometry::Box& region, double first);
 
 /// A free straight motion from the retreat plane along the given tool positions (search frame), at the given turn about
-/// the approach axis; null if blocked.
+/// the approach axis; null if blocked. Throws `Cancelled`.
 MotionPtr anchored_motion(const Task& task, Kind kind, const std::vector<Vector3>& positions, double turn,
-                          const JointVector& near);
+                          const JointVector& near, const support::Cancellation& cancellation = {});
 
 }  // namespace tactus::action

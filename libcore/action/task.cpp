@@ -80,11 +80,11 @@ std::optional<JointVector> Task::posture(const Pose& base_from_tool, const Joint
 }
 
 std::optional<JointPath> Task::straight_path(const JointVector& from, const Pose& base_from_goal, double step,
-                                             bool keep_free_part) const {
+                                             const support::Cancellation& cancellation, bool keep_free_part) const {
   const double stride =
       options_.sites ? options_.sites->stride(base_from_tool(from).translation(), base_from_goal.translation()) : 0.0;
   return motion::straight_tool_path(*known_world_, scene_.tool_link, from, base_from_goal,
-                                    {step, stride, keep_free_part});
+                                    {step, stride, keep_free_part, cancellation});
 }
 
 Pose Task::at_site(const Pose& base_from_start, const Pose& base_from_goal) const {

@@ -93,8 +93,9 @@ class Task {
   std::optional<JointVector> posture(const Pose& base_from_tool, const JointVector& near) const;
 
   /// `motion::straight_tool_path` of the tool through the known world, from site to site where it leads from one to
-  /// another along an axis.
+  /// another along an axis. Throws `Cancelled`.
   std::optional<JointPath> straight_path(const JointVector& from, const Pose& base_from_goal, double step,
+                                         const support::Cancellation& cancellation = {},
                                          bool keep_free_part = false) const;
 
   /// `base_from_goal`, moved to the nearest site if the tool at `base_from_start` stands on one and goes along an axis.

@@ -24,11 +24,12 @@ struct StraightOptions {
   double step = 0.004;          ///< m that no point of the robot exceeds between waypoints
   double stride = 0.0;          ///< m: of the tool between waypoints, or multiples of it, where the step allows; 0: any
   bool keep_free_part = false;  ///< of a way that is blocked: at least two waypoints from the start
+  support::Cancellation cancellation{};
 };
 
 /// The straight line of the tool link in space (slerp in rotation), ending at the goal within 1e-6 m and rad, followed
 /// by inverse kinematics from `from` without jumping to another branch, densified, if it is free and inside the limits
-/// all along.
+/// all along. Throws `Cancelled`.
 std::optional<JointPath> straight_tool_path(const contact::KnownWorld& world, int tool_link, const JointVector& from,
                                             const Pose& base_from_tool_goal, const StraightOptions& options);
 

@@ -105,8 +105,7 @@ std::optional<JointPath> straight_tool_path(const KnownWorld& world, int tool_li
                                             const Pose& base_from_tool_goal, const StraightOptions& options) {
   if (!world.is_free(from)) return std::nullopt;
   LineFollower follower(world, tool_link, from, base_from_tool_goal, options);
-  while (!follower.done() && follower.advance()) {
-  }
+  while (!follower.done() && follower.advance()) options.cancellation.check();
   JointPath path = follower.take();
   if (path.size() < 2 || !(follower.done() || options.keep_free_part)) return std::nullopt;
   return path;

@@ -316,16 +316,16 @@ MotionPtr PoseProblem::ending_with_contacts(const MotionPtr& motion) {
 }
 
 MotionPtr PoseProblem::insertion_at(std::size_t seat, const JointVector& near) {
-  const auto [entry, is_new] = insertions_.try_emplace(seat, nullptr);
-  if (is_new)
-    entry->second = action::insertion(*task_, predictions_->poses()[seat / seats()], near, seat % seats(), plane_);
-  return entry->second;
+  if (const auto found = insertions_.find(seat); found != insertions_.end()) return found->second;
+  const Pose& supposed = predictions_->poses()[seat / seats()];
+  return insertions_[seat] = action::insertion(*task_, supposed, near, seat % seats(), plane_, cancellation());
 }
 
 MotionPtr PoseProblem::near_insertion_at(std::size_t seat, const JointVector& q) {
-  const auto [entry, is_new] = near_insertions_.try_emplace({salt_of(q), seat}, nullptr);
-  if (is_new) entry->second = action::near_insertion(*task_, predictions_->poses()[seat / seats()], q, seat % seats());
-  return entry->second;
+  const auto at = std::pair(salt_of(q), seat);
+  if (const auto found = near_insertions_.find(at); found != near_insertions_.end()) return found->second;
+  const Pose& supposed = predictions_->poses()[seat / seats()];
+  return near_insertions_[at] = action::near_insertion(*task_, supposed, q, seat % seats(), cancellation());
 }
 
 /// From where the robot stands at the start, `q`.

@@ -77,8 +77,7 @@ Walks::Step Walks::made_step(std::size_t place, std::size_t direction) const {
     made.cost = with_actions(task_->options().cost.metre * lattice_->pitch());
     return made;
   }
-  predictions_.cancellation().check();
-  const MotionPtr motion = lattice_->step(place, direction);
+  const MotionPtr motion = lattice_->step(place, direction, predictions_.cancellation());
   if (!motion) return made;
   made.cost = with_actions(motion->cost_to.back());
   const std::vector<std::int32_t>& first_contacts = predictions_.first_contacts(motion);
@@ -103,8 +102,8 @@ std::vector<MotionPtr> Walks::steps_from(const robot::JointVector& q) const {
   for (std::size_t direction = 0; here && direction < Lattice::directions; ++direction) {
     const auto next = lattice_->neighbour(*here, direction);
     if (!next) continue;
-    predictions_.cancellation().check();
-    auto path = task_->straight_path(q, lattice_->base_from_tool(*next), task_->options().motion.step);
+    auto path = task_->straight_path(q, lattice_->base_from_tool(*next), task_->options().motion.step,
+                                     predictions_.cancellation());
     if (!path || path->size() < 2) continue;
     action::Motion step;
     step.path = std::move(*path);

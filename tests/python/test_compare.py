@@ -59,7 +59,7 @@ def poses(shelf, tmp_path_factory):
 
 
 def timeless(document):
-    return [{key: value for key, value in trial.items() if not key.endswith("planning_s")} for trial in document["trials"]]
+    return [{key: value for key, value in trial.items() if not key.endswith("_s")} for trial in document["trials"]]
 
 
 def trials_of(document, solver):
@@ -271,6 +271,16 @@ def test_a_finished_comparison_runs_nothing(shelf, whole, tmp_path):
     document, result = compare(shelf, path, "--resume")
     assert "ended:" not in result.stderr
     assert document["trials"] == whole[1]["trials"]
+
+
+def test_a_comparison_goes_on_with_another_solver(shelf, whole, tmp_path):
+    path = tmp_path / "results.json"
+    compare(shelf, path, "--solvers", "frontier,rate")
+    document, result = compare(shelf, path, "--resume")
+    check_summary(document)
+    assert f"{2 * TRIALS} of {3 * TRIALS} trials are there" in result.stderr
+    assert all(("tbl" in line) == ("ended:" in line) for line in result.stderr.splitlines() if "ended:" in line)
+    assert timeless(document) == timeless(whole[1])
 
 
 @pytest.mark.parametrize("options, complaint", [

@@ -209,6 +209,7 @@ def test_command_goes_the_same_way_and_writes_json_and_record(loop_in_c, tmp_pat
                            "contacts", "planner_calls", "planning_s", "phase1_cost_m", "position_error_m",
                            "angle_error_rad", "phase1_travel_m", "phase1_rotation_rad", "phase1_actions",
                            "phase1_planner_calls", "phase1_planning_s", "slowest_planning_s", "late_plans",
+                           "stepping_s", "slowest_step_s",
                            "poses_lower_bound", "poses_value"]
     assert trial["actions"] == len(loop_in_c) - 1 and trial["inserted"] == (loop_in_c[-1] == "inserted")
     assert trial["cost_m"] == pytest.approx(
@@ -223,7 +224,7 @@ def test_command_keeps_tables_and_goes_the_same_way_with_them(tmp_path):
     def trial():
         document = json.loads("\n".join(run(BUILD / "bin" / "tactus", "run", SHELF, "--seed", SEED, "--belief", "particles",
                                             "--budget-expansions", EXPANSIONS, "--json", "-", "--tables", tables)))
-        return {name: number for name, number in document["trials"][0].items() if not name.endswith("planning_s")}
+        return {name: number for name, number in document["trials"][0].items() if not name.endswith("_s")}
 
     first = trial()
     kept = tables.read_bytes()
