@@ -80,11 +80,14 @@ Answer Planner::query(const belief::Belief& belief) {
   note_fruitless(belief);
   if (const auto node = followed(belief)) {
     statistics_.from_policy = true;
-    Answer answer = act(belief, *node, deadline);
+    Answer answer = unless_cancelled([&] { return act(belief, *node, deadline); });
     if (answer.action) return answer;
     statistics_.from_policy = false;
   }
-  Answer answer = planned(belief, deadline);
+  Answer answer = unless_cancelled([&] {
+    plan(belief, deadline);
+    return act(belief, Search::start, deadline);
+  });
   statistics_.expansions = deadline.expansions();
   statistics_.seconds = deadline.elapsed_seconds();
   ++statistics_.total_calls;
@@ -94,10 +97,10 @@ Answer Planner::query(const belief::Belief& belief) {
 }
 
 /// The policy of a call that was cancelled is not kept.
-Answer Planner::planned(const belief::Belief& belief, support::Deadline& deadline) {
+template <typename Work>
+Answer Planner::unless_cancelled(Work&& work) {
   try {
-    plan(belief, deadline);
-    return act(belief, Search::start, deadline);
+    return work();
   } catch (const support::Cancelled&) {
     policy_.reset();
     return {Answer::Kind::cancelled, nullptr};

@@ -72,7 +72,8 @@ class Planner {
   BeliefStatePtr on_voxels(const belief::Belief& belief, const support::Deadline& deadline);
   BeliefStatePtr on_poses(const belief::Belief& belief);
   void plan(const belief::Belief& belief, support::Deadline& deadline);
-  Answer planned(const belief::Belief& belief, support::Deadline& deadline);
+  template <typename Work>
+  Answer unless_cancelled(Work&& work);
 
   std::shared_ptr<const belief::Model> model_;
   PlannerOptions options_;

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <limits>
 #include <thread>
 
@@ -249,6 +250,27 @@ TEST(Cancel, AtAnyTimeLeavesAPlannerThatPlans) {
       belief.step(*answer.action, world.execute(*answer.action));
     }
   }
+}
+
+/// What has its action from an earlier call only makes the way to it then, which takes milliseconds.
+TEST(Cancel, WhileAPolicyIsFollowedIsAnAnswerToo) {
+  Rng rng(6);
+  int cancelled = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Trial trial(seed, within(60));
+    auto& [world, belief, planner] = trial;
+    for (int steps = 0; steps < 8; ++steps) {
+      std::future<Answer> running =
+          std::async(std::launch::async, [&planner, &belief] { return planner.query(belief); });
+      std::this_thread::sleep_for(std::chrono::duration<double>(rng.uniform(0.0, 0.0005)));
+      planner.cancel();
+      ASSERT_NO_THROW(cancelled += running.get().kind == Answer::Kind::cancelled);
+      const Answer answer = planner.query(belief);
+      if (answer.kind != Answer::Kind::action) break;
+      belief.step(*answer.action, world.execute(*answer.action));
+    }
+  }
+  EXPECT_GT(cancelled, 10);
 }
 
 TEST(Cancel, WithoutAQueryChangesNothing) {
