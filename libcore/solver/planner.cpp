@@ -81,7 +81,7 @@ Answer Planner::query(const belief::Belief& belief) {
   if (const auto node = followed(belief)) {
     statistics_.from_policy = true;
     Answer answer = unless_cancelled([&] { return act(belief, *node, deadline); });
-    if (answer.action) return answer;
+    if (answer.action || answer.kind == Answer::Kind::cancelled) return answer;
     statistics_.from_policy = false;
   }
   Answer answer = unless_cancelled([&] {

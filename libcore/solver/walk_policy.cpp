@@ -25,7 +25,7 @@ WalkPolicy::WalkPolicy(std::shared_ptr<const action::Task> task, std::shared_ptr
 const std::vector<double>& WalkPolicy::after_step(std::size_t place, std::size_t direction) {
   std::vector<double>& costs = costs_after_[place * action::Lattice::directions + direction];
   if (!costs.empty()) return costs;
-  const MotionPtr motion = walks_.lattice().step(place, direction);
+  const MotionPtr motion = walks_.lattice().step(place, direction, predictions_.cancellation());
   costs.assign(predictions_.poses().size(), 0.0);
   const Bitset& met = walks_.step(place, direction).touched;
   for (const Group& group : predictions_.split(motion, met, least_group(met.count(), dimensions_))) {

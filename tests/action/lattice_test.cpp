@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "action/library.hpp"
 #include "belief/small_task.hpp"
 
@@ -115,6 +117,29 @@ TEST(Lattice, StepsAreTheSameWhicheverOfThemIsAskedForFirst) {
       ASSERT_EQ(first->path, last->path);
     }
   }
+}
+
+/// Whether the straight way or its reverse was being made, nothing is kept of it.
+TEST(Lattice, StepsAreTheSameWhetherOrNotSomebodyCancelledTheirMaking) {
+  Rng rng(8);
+  const JointVector q = random_stand(rng);
+  const Lattice calm(task(), q, pitch), cancelled(task(), q, pitch);
+  const std::atomic<bool> flag{true};
+  std::size_t thrown = 0;
+  for (std::size_t i = 0; i < calm.size() * Lattice::directions; ++i) {
+    const std::size_t place = i / Lattice::directions, direction = i % Lattice::directions;
+    try {
+      cancelled.step(place, direction, &flag);
+    } catch (const support::Cancelled&) {
+      ++thrown;
+    }
+    const MotionPtr expected = calm.step(place, direction), found = cancelled.step(place, direction);
+    ASSERT_EQ(expected == nullptr, found == nullptr);
+    if (expected) {
+      ASSERT_EQ(expected->path, found->path);
+    }
+  }
+  EXPECT_GT(thrown, 20u);
 }
 
 TEST(Lattice, SomeStepMeetsTheTargetWhereverItIsInADeepRegion) {
