@@ -58,7 +58,11 @@ CellShape cell_shape(const scene::Prior& prior, double position, double angle, s
 /// Halves boxes until they are decided.
 class CellGrid::Sieve {
  public:
-  Sieve(CellGrid& grid, const Task& task, const Excludes& excludes) : grid_(grid), task_(task), excludes_(excludes) {}
+  Sieve(CellGrid& grid, const Task& task, const Excludes& excludes)
+      : grid_(grid),
+        task_(task),
+        excludes_(excludes),
+        cell_radius_(scene::cell_radius(grid.shape_.half, grid.reach_)) {}
 
   void sift(Part part) {
     std::vector<Part> open{std::move(part)};
@@ -73,16 +77,19 @@ class CellGrid::Sieve {
   void decide(Part part, std::vector<Part>& open) {
     const Box& box = part.box;
     if (!grid_.any_in(box)) return;
-    PoseVector centre, half;
+    PoseVector centre, half, to_centres;
     bool is_cell = true;
     for (int d = 0; d < 6; ++d) {
       half[d] = grid_.shape_.half[d] * (box.high[d] - box.low[d]);
       centre[d] = grid_.shape_.corner[d] + grid_.shape_.half[d] * (box.low[d] + box.high[d]);
+      to_centres[d] = half[d] - grid_.shape_.half[d];
       is_cell = is_cell && box.high[d] - box.low[d] == 1;
     }
-    const double radius = scene::cell_radius(half, grid_.reach_);
+    const Boxes cells{scene::cell_radius(half, grid_.reach_), cell_radius_,
+                      scene::cell_radius(to_centres, grid_.reach_)};
     const Pose pose = geometry::pose_from(centre);
-    if ((excludes_ && excludes_(pose, radius)) || !agree(part.claims, pose, radius, is_cell)) return grid_.drop(box);
+    if ((excludes_ && excludes_(pose, cells.radius)) || !agree(part.claims, pose, cells, is_cell))
+      return grid_.drop(box);
     if (is_cell || (part.claims.empty() && !excludes_)) return;
     const auto [low, high] = halves(box, half);
     open.push_back({low, part.claims});
@@ -90,12 +97,11 @@ class CellGrid::Sieve {
   }
 
  private:
-  /// Takes out the claims that every pose would meet; false if one is met by none.
-  bool agree(std::vector<Claim>& claims, const Pose& pose, double radius, bool is_cell) const {
+  /// Takes out the claims that every cell may meet; false if one is met by none.
+  bool agree(std::vector<Claim>& claims, const Pose& pose, const Boxes& cells, bool is_cell) const {
     for (auto claim = claims.begin(); claim != claims.end();) {
-      const Fit found = is_cell
-                            ? (may_reproduce(task_, *claim->trace, pose, radius, claim->from) ? Fit::some : Fit::none)
-                            : fit(task_, *claim->trace, pose, radius, claim->from);
+      const Fit found = is_cell ? (claim->may_be_met(task_, pose, cells.own) ? Fit::some : Fit::none)
+                                : claim->narrow(task_, pose, cells);
       if (found == Fit::none) return false;
       claim = found == Fit::all ? claims.erase(claim) : claim + 1;
     }
@@ -118,6 +124,7 @@ class CellGrid::Sieve {
   CellGrid& grid_;
   const Task& task_;
   const Excludes& excludes_;
+  double cell_radius_;
 };
 
 CellGrid::CellGrid(const CellShape& shape, double reach)
@@ -220,9 +227,9 @@ void CellGrid::sift(const Task& task, const std::vector<const Trace*>& traces, c
       rests.push_back(tables->rest(*trace));
       trace = &rests.back();
     }
-    if (!trace->path.empty()) claims.push_back({trace, 0});
+    if (!trace->path.empty()) claims.emplace_back(*trace);
   }
-  std::stable_partition(claims.begin(), claims.end(), [](const Claim& claim) { return claim.trace->contact; });
+  std::stable_partition(claims.begin(), claims.end(), std::mem_fn(&Claim::of_contact));
   if (!claims.empty() || excludes) sift(task, {{{}, shape_.count}, std::move(claims)}, excludes, threads);
   left_ = members_.count();
 }

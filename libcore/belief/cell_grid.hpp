@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "belief/trace.hpp"
+#include "belief/claim.hpp"
 #include "support/bitset.hpp"
 
 namespace tactus::belief {
@@ -64,13 +64,9 @@ class CellGrid {
   struct Box {
     std::array<int, 6> low{}, high{};  ///< cells low .. high - 1
   };
-  struct Claim {
-    const Trace* trace;
-    std::size_t from;  ///< no pose of the box is touched before this waypoint
-  };
   struct Part {
     Box box;
-    std::vector<Claim> claims;  ///< that not all of its poses are known to meet
+    std::vector<Claim> claims;  ///< that not all of its cells are known to be left by
   };
   class Sieve;
   template <typename Row>

@@ -229,10 +229,9 @@ bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_targ
   return !first || *first >= trace.touch;
 }
 
-bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius,
-                   std::size_t from) {
+bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius) {
   return (!trace.contact || may_touch(task, trace, base_from_target, radius)) &&
-         may_be_free(task, trace, base_from_target, radius, from);
+         may_be_free(task, trace, base_from_target, radius, 0);
 }
 
 bool reproduces(const Task& task, const std::vector<const Trace*>& traces, const Pose& base_from_target) {
@@ -274,17 +273,6 @@ Fit fit_touch(const Task& task, const Trace& trace, const Pose& base_from_target
   const contact::TargetContact& target = task.target_contact();
   const double sound = radius + target.margin() + trace.error;
   return target.first_certain_contact(trace.bodies, base_from_target, sound, trace.touch) ? Fit::all : Fit::some;
-}
-
-Fit fit(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t& from) {
-  if (trace.contact && !may_touch(task, trace, base_from_target, radius)) return Fit::none;
-  if (from < trace.touch) {
-    const contact::TargetContact& target = task.target_contact();
-    const auto first = target.first_within(trace.bodies, base_from_target, radius + target.margin(), from);
-    from = std::min(first.value_or(trace.touch), trace.touch);
-  }
-  if (from == trace.touch) return trace.contact ? Fit::some : Fit::all;
-  return may_be_free(task, trace, base_from_target, radius, from) ? Fit::some : Fit::none;
 }
 
 }  // namespace tactus::belief

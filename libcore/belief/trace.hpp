@@ -71,9 +71,11 @@ Trace retraced(const Task& task, const Trace& trace, const action::Sensing& sens
 bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_target);
 
 /// Whether some pose at which no point of the target is farther than `radius` from where it is at `base_from_target`
-/// may have given the trace. Errs to true only. None of them may touch the robot before the waypoint `from`.
-bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius,
-                   std::size_t from = 0);
+/// may have given the trace. Errs to true only.
+bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius);
+
+/// The same of where the robot stopped alone, for a trace with a contact.
+bool may_touch(const Task& task, const Trace& trace, const Pose& base_from_target, double radius);
 
 /// The same of every one of some traces.
 bool reproduces(const Task& task, const std::vector<const Trace*>& traces, const Pose& base_from_target);
@@ -97,9 +99,5 @@ SetOut set_out(const Task& task, const Trace& trace, const Pose& base_from_targe
 /// have touched, and whether it was in touch where it felt a contact. Err to `some` only.
 Fit fit_free(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t from);
 Fit fit_touch(const Task& task, const Trace& trace, const Pose& base_from_target, double radius);
-
-/// As `may_reproduce`; errs to `some` only. `from` is raised to what is found out: at `Trace::touch` all there is left
-/// to ask is whether they touch.
-Fit fit(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t& from);
 
 }  // namespace tactus::belief

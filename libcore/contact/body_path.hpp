@@ -41,6 +41,7 @@ class BodyPath {
   BodyPath(const RobotBodies& bodies, const std::vector<robot::JointVector>& waypoints);
 
   std::size_t size() const { return bodies_ == 0 ? 0 : poses_.size() / bodies_; }  ///< waypoints
+  std::size_t bodies() const { return bodies_; }
   const Pose& base_from_body(std::size_t waypoint, std::size_t body) const { return poses_[waypoint * bodies_ + body]; }
   /// No point of the body has moved farther than `travelled(j, b) - travelled(i, b)` between the waypoints i < j.
   /// Metres.

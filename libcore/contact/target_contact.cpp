@@ -102,9 +102,10 @@ TargetContact::TargetContact(std::shared_ptr<const RobotBodies> bodies, const Me
 /// Decides a piece that the look-ups leave undecided: they are as good as its size, so a reach or a depth wider than
 /// that is left at them, which errs to a hit, or to none. Else its triangle, or for a depth its middle, is asked.
 bool TargetContact::piece_hit(const Piece& piece, const Pose& target_from_body, const kernel::Placement& at,
-                              double threshold) const {
+                              const Asked& asked) const {
+  const auto [threshold, errs_to_hit] = asked;
   const geometry::TriangleTree& tree = field_.tree();
-  if (std::abs(threshold) > std::max(margin_, piece.radius)) return threshold > 0.0;
+  if (std::abs(threshold) > std::max(margin_, piece.radius) || (threshold < 0.0 && errs_to_hit)) return errs_to_hit;
   if (threshold >= 0.0) return crosses(piece, target_from_body, at, threshold);
   const Vector3 centre = target_from_body * piece.centre;
   const geometry::DistanceBounds bounds = field_.narrow_bounds(centre);
@@ -132,11 +133,12 @@ bool TargetContact::crosses(const Piece& piece, const Pose& target_from_body, co
 
 /// Goes through the body's balls, deepest detail only where the target is near. A reach much wider than a ball takes
 /// the ball for its part of the surface, which errs to a hit, and a depth much greater gives it up, which errs to none.
-Reach TargetContact::reach(const Body& body, const Pose& target_from_body, double threshold) const {
+Reach TargetContact::reach(const Body& body, const Pose& target_from_body, const Asked& asked) const {
+  const double threshold = asked.threshold;
   const bool wide = std::abs(threshold) > margin_;
   const kernel::Question question{static_cast<float>(threshold),
                                   wide ? static_cast<float>(relative_detail * std::abs(threshold)) : 0.0f,
-                                  wide && threshold > 0.0};
+                                  wide && asked.errs_to_hit};
   const kernel::Placement at = placement(target_from_body);
   Sides sides;
   kernel::Walk walk;
@@ -148,7 +150,7 @@ Reach TargetContact::reach(const Body& body, const Pose& target_from_body, doubl
       return {true, 0.0};
     fetch(body.balls().pieces(), walk);
     for (int i = 0; i < walk.piece_count; ++i)
-      if (piece_hit(body.balls().pieces()[walk.pieces[i]], target_from_body, at, threshold)) return {true, 0.0};
+      if (piece_hit(body.balls().pieces()[walk.pieces[i]], target_from_body, at, asked)) return {true, 0.0};
     pieces_free = pieces_free || walk.piece_count > 0;
     if (threshold >= 0.0 && !all_outside()) sides.ask(body, walk);
   } while (walk.depth > 0);
@@ -172,21 +174,21 @@ std::uint32_t TargetContact::near_waypoints(const BodyPath& path, std::size_t bo
 }
 
 std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, const Pose& target_from_base,
-                                       double threshold, std::size_t from, std::size_t to) const {
+                                       const Asked& asked, std::size_t from, std::size_t to) const {
   const std::size_t none = to;
   if (from >= to) return none;
-  if (threshold < BodyPath::region_margin) {
+  if (asked.threshold < BodyPath::region_margin) {
     from = std::max(from, path.near_region(body).begin);
     to = std::min(to, path.near_region(body).end);
   }
   const kernel::Placement base = placement(target_from_base);
   double free_until = -1.0;  // of the way travelled
   for (std::size_t first = from / kernel::lanes * kernel::lanes; first < to; first += kernel::lanes) {
-    std::uint32_t near = near_waypoints(path, body, first / kernel::lanes, base, threshold);
+    std::uint32_t near = near_waypoints(path, body, first / kernel::lanes, base, asked.threshold);
     for (near &= lanes_within(first, from, to); near != 0; near &= near - 1) {
       const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(near));
       if (path.travelled(i, body) < free_until) continue;
-      const Reach at = reach(bodies_->body(body), product(target_from_base, path.base_from_body(i, body)), threshold);
+      const Reach at = reach(bodies_->body(body), product(target_from_base, path.base_from_body(i, body)), asked);
       if (at.hit) return i;
       free_until = path.travelled(i, body) + at.clearance;
     }
@@ -195,21 +197,21 @@ std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, c
 }
 
 std::optional<std::size_t> TargetContact::first_reach(const BodyPath& path, const Pose& base_from_target,
-                                                      double threshold, std::size_t from) const {
+                                                      const Asked& asked, std::size_t from) const {
   const Pose target_from_base = inverse(base_from_target);
   std::size_t first = path.size();
   for (std::size_t body = 0; body < bodies_->size(); ++body)
-    first = std::min(first, first_reach(path, body, target_from_base, threshold, from, first));
+    first = std::min(first, first_reach(path, body, target_from_base, asked, from, first));
   return first == path.size() ? std::nullopt : std::optional(first);
 }
 
 std::optional<std::size_t> TargetContact::first_contact(const BodyPath& path, const Pose& base_from_target) const {
-  return first_reach(path, base_from_target, margin_, 1);
+  return first_reach(path, base_from_target, usual(margin_), 1);
 }
 
 std::optional<std::size_t> TargetContact::first_within(const BodyPath& path, const Pose& base_from_target,
                                                        double radius, std::size_t from) const {
-  return first_reach(path, base_from_target, radius, from);
+  return first_reach(path, base_from_target, usual(radius), from);
 }
 
 bool TargetContact::touches(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const {
@@ -220,18 +222,28 @@ bool TargetContact::within(const BodyPath& path, std::size_t waypoint, const Pos
                            double radius) const {
   const Pose target_from_base = base_from_target.inverse();
   for (std::size_t body = 0; body < bodies_->size(); ++body)
-    if (first_reach(path, body, target_from_base, radius, waypoint, waypoint + 1) == waypoint) return true;
+    if (first_reach(path, body, target_from_base, usual(radius), waypoint, waypoint + 1) == waypoint) return true;
   return false;
 }
 
 std::optional<std::size_t> TargetContact::first_certain_contact(const BodyPath& path, const Pose& base_from_target,
                                                                 double radius, std::size_t from) const {
-  return first_reach(path, base_from_target, -radius, from);
+  return first_reach(path, base_from_target, usual(-radius), from);
+}
+
+std::size_t TargetContact::first_certain_contact(const BodyPath& path, std::size_t body, const Pose& base_from_target,
+                                                 double radius, std::size_t from, std::size_t to) const {
+  return first_reach(path, body, inverse(base_from_target), usual(-radius), from, to);
+}
+
+std::size_t TargetContact::first_possible_contact(const BodyPath& path, std::size_t body, const Pose& base_from_target,
+                                                  double radius, std::size_t from, std::size_t to) const {
+  return first_reach(path, body, inverse(base_from_target), {-radius, true}, from, to);
 }
 
 ContactInterval TargetContact::first_contact_interval(const BodyPath& path, const Pose& base_from_target,
                                                       double radius) const {
-  return {first_reach(path, base_from_target, radius + margin_, 1).value_or(path.size()),
+  return {first_reach(path, base_from_target, usual(radius + margin_), 1).value_or(path.size()),
           first_certain_contact(path, base_from_target, radius).value_or(path.size())};
 }
 

@@ -61,13 +61,22 @@ class TargetContact {
   std::optional<std::size_t> first_certain_contact(const BodyPath& path, const Pose& base_from_target, double radius,
                                                    std::size_t from = 1) const;
 
+  /// The same of one body and the waypoints in [from, to); `to` if there is none.
+  std::size_t first_certain_contact(const BodyPath& path, std::size_t body, const Pose& base_from_target, double radius,
+                                    std::size_t from, std::size_t to) const;
+
+  /// The first waypoint in [from, to) at which a body, deflated by `radius` (m; inflated if that is negative), may have
+  /// a point of its surface in the target: errs to an earlier one, as `first_within`. `to` if there is none.
+  std::size_t first_possible_contact(const BodyPath& path, std::size_t body, const Pose& base_from_target,
+                                     double radius, std::size_t from, std::size_t to) const;
+
   /// Whether the robot comes within `radius` (m) of the target at a waypoint; errs as `first_within`.
   bool within(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target, double radius) const;
 
   /// One look at one body: does it, inflated by `threshold` (m) if that is positive, deflated if it is negative, meet
   /// the target? (As `first_within` and `first_certain_contact`.)
   Reach reach(std::size_t body, const Pose& target_from_body, double threshold) const {
-    return reach(bodies_->body(body), target_from_body, threshold);
+    return reach(bodies_->body(body), target_from_body, usual(threshold));
   }
 
   /// The deepest or nearest point at a waypoint, of the bodies near the region, found to a tenth of a millimetre or so:
@@ -83,8 +92,14 @@ class TargetContact {
  private:
   struct Sides;
   struct Closest;
-  Reach reach(const Body& body, const Pose& target_from_body, double threshold) const;
-  bool piece_hit(const Piece& piece, const Pose& target_from_body, const kernel::Placement& at, double threshold) const;
+  struct Asked {
+    double threshold;  ///< m by which the robot is inflated; deflated if it is negative
+    bool errs_to_hit;  ///< where it is much wider or deeper than what would have to be looked at; else to none
+  };
+  static Asked usual(double threshold) { return {threshold, threshold > 0.0}; }
+  Reach reach(const Body& body, const Pose& target_from_body, const Asked& asked) const;
+  bool piece_hit(const Piece& piece, const Pose& target_from_body, const kernel::Placement& at,
+                 const Asked& asked) const;
   bool crosses(const Piece& piece, const Pose& target_from_body, const kernel::Placement& at, double reach) const;
   double estimate(const Vector3& p) const;
   void look_at(const Piece& piece, const Pose& target_from_body, Closest& closest) const;
@@ -93,9 +108,9 @@ class TargetContact {
   bool target_inside(const Body& body, const Pose& target_from_body) const;
   std::uint32_t near_waypoints(const BodyPath& path, std::size_t body, std::size_t block,
                                const kernel::Placement& target_from_base, double reach) const;
-  std::size_t first_reach(const BodyPath& path, std::size_t body, const Pose& target_from_base, double threshold,
+  std::size_t first_reach(const BodyPath& path, std::size_t body, const Pose& target_from_base, const Asked& asked,
                           std::size_t from, std::size_t to) const;
-  std::optional<std::size_t> first_reach(const BodyPath& path, const Pose& base_from_target, double threshold,
+  std::optional<std::size_t> first_reach(const BodyPath& path, const Pose& base_from_target, const Asked& asked,
                                          std::size_t from) const;
 
   std::shared_ptr<const RobotBodies> bodies_;

@@ -74,6 +74,40 @@ TEST_P(IntervalLaw, TheRadiusOfAnIntervalMayBeUsedUp) {
   }
 }
 
+/// Where a body is certainly so deep at one pose, it may at another be less deep by what lies between them; and where
+/// it may be within a reach, the robot is.
+TEST_P(IntervalLaw, WhatIsCertainlyDeepMayBeNearlyAsDeepAtAnyPoseNearBy) {
+  const TargetContact& contact = scene().contact;
+  const Mesh mesh = scene().target.mesh();
+  int deep = 0, nearer = 0;
+  for (int m = 0; m < 60; ++m) {
+    const Motion motion(scene(), random_waypoints(rng));
+    const Pose pose = m % 2 == 0 ? pose_near_touching(scene(), motion, rng) : pose_anywhere(scene(), motion, rng);
+    const std::size_t from = rng.below(3), to = motion.path.size();
+    for (int k = 0; k < 10; ++k) {
+      const double depth = std::pow(10.0, rng.uniform(-4.5, -2.5));
+      geometry::PoseVector moved = geometry::pose_vector(pose);
+      for (std::size_t d = 0; d < 6; ++d) moved[d] += rng.uniform(-1.0, 1.0) * (d < 3 ? 0.003 : 0.04);
+      const Pose other = geometry::pose_from(moved);
+      const double between = largest_displacement(mesh, pose, other) + 1e-9;
+      for (std::size_t body = 0; body < motion.path.bodies(); ++body) {
+        const std::size_t certain = contact.first_certain_contact(motion.path, body, pose, depth, from, to);
+        const std::size_t possible = contact.first_possible_contact(motion.path, body, pose, depth, from, to);
+        EXPECT_LE(possible, certain);
+        EXPECT_LE(contact.first_possible_contact(motion.path, body, other, depth - between, from, to), certain);
+        const std::size_t within = contact.first_possible_contact(motion.path, body, pose, -between, from, to);
+        EXPECT_GE(within, contact.first_within(motion.path, pose, between, from).value_or(to));
+        deep += certain < to;
+        nearer += within < possible;
+      }
+    }
+  }
+  EXPECT_GT(nearer, 10);
+  if (!scene().target.solids.empty()) {
+    EXPECT_GT(deep, 10);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, IntervalLaw, testing::Range(0, 11),
                          [](const auto& scene) { return name_of_pairing(scene.param); });
 

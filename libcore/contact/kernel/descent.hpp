@@ -56,9 +56,9 @@ struct Placement {
 /// What is asked of a tree of balls at a placement: does its surface come closer than `threshold` to the target's, or
 /// does (threshold < 0) a point of it lie deeper than that?
 struct Question {
-  float threshold;  ///< m
-  float detail;     ///< m: balls smaller than this are not gone into; a reach takes them for a hit, a depth for none
-  bool by_balls;    ///< pieces smaller than the threshold are taken for their balls
+  float threshold;   ///< m
+  float detail;      ///< m: balls smaller than this are not gone into
+  bool errs_to_hit;  ///< they are taken for a hit, and pieces for their balls; else for none, and for their centres
 };
 
 enum class Verdict : std::int32_t { free, hit, undecided };

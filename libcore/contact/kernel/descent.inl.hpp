@@ -156,9 +156,9 @@ struct Over {
     const std::uint32_t is_piece = V::negative(V::load_int(block.next));
     F radius = V::load(block.radius), core = V::load(block.core);
     if (question.threshold < 0.0f) {
-      radius = V::select(is_piece, zero, radius);
+      if (!question.errs_to_hit) radius = V::select(is_piece, zero, radius);
       core = V::min(core, zero);
-    } else if (question.by_balls) {
+    } else if (question.errs_to_hit) {
       core = V::select(is_piece & V::less(radius, threshold), radius, core);
     }
     if (V::less(at.upper, V::add(threshold, core)) != 0) return true;
@@ -169,7 +169,7 @@ struct Over {
     std::uint32_t inner = open & ~is_piece;
     const std::uint32_t fine = inner & V::less(radius, V::set(question.detail));
     if (fine != 0) {
-      if (question.threshold > 0.0f) return true;
+      if (question.errs_to_hit) return true;
       clearance = zero;
       inner &= ~fine;
     }
