@@ -21,7 +21,7 @@ constexpr action::Sensing suspected{
     .stopping_distance = 0.002, .encoder_error = 0.0001, .missed_contacts = 0.02, .false_contacts = 0.02};
 
 constexpr std::size_t parts_asked = 400;       // whether they are seated
-constexpr std::size_t tests_to_look = 100000;  // of parts when cells are looked into
+constexpr double tests_to_look = 1e5;          // of parts when cells are looked into
 constexpr std::size_t tests_to_prove = 100;    // the same, for each cell there is room for, to prove that it is seated
 constexpr std::size_t crowded = 5;             // cells for each there is room for: no more are looked into
 constexpr double hardly_less = 0.97;           // of the weight, left by an observation that told next to nothing
@@ -170,10 +170,9 @@ Looked Belief::look_closer(double radius) {
   const std::size_t room = model_->options.cells.most;
   if (cells_->coarsest() <= radius || cells_->size() > crowded * room) return Looked::gave_up;
   support::Rng rng(fingerprint(history_, history_.size()));
-  if (cells_->estimated_tests(task(), history_, radius, rng) > static_cast<double>(tests_to_look))
-    return Looked::gave_up;
+  if (cells_->estimated_tests(task(), history_, radius, tests_to_look, rng) > tests_to_look) return Looked::gave_up;
   const auto fine = [&](const Cell& cell) { return cells_->radius(cell) <= radius; };
-  const Looked looked = cells_->look_inside(task(), history_, fine, 2 * tests_to_look);
+  const Looked looked = cells_->look_inside(task(), history_, fine, static_cast<std::size_t>(2.0 * tests_to_look));
   if (looked != Looked::all) return looked;
   standstill_ = 0;
   return refine() ? Looked::all : Looked::none;

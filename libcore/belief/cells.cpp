@@ -361,11 +361,11 @@ void CellBelief::replace(const std::vector<Cell>& wholes, const std::vector<Insi
   weigh();
 }
 
-double CellBelief::estimated_tests(const Task& task, const std::vector<Trace>& history, double wanted,
+double CellBelief::estimated_tests(const Task& task, const std::vector<Trace>& history, double wanted, double most,
                                    support::Rng& rng) const {
   std::vector<Cell> parts = by_lot(lot, rng);
   double all = static_cast<double>(size()), tests = 0.0;
-  while (any_coarser(parts, wanted)) {
+  while (tests <= most && any_coarser(parts, wanted)) {
     const auto before = static_cast<double>(parts.size());
     parts = halves_of_coarsest(task, history, parts, parts.size(), wanted);
     tests += 2.0 * all;

@@ -82,8 +82,10 @@ class CellBelief {
   Looked look_inside(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& fine,
                      std::size_t most_tests);
 
-  /// How many tests it would take to look for parts of at most `radius` (m), by what some cells take.
-  double estimated_tests(const Task& task, const std::vector<Trace>& history, double radius, support::Rng& rng) const;
+  /// How many tests it would take to look for parts of at most `radius` (m), by what some cells take. Where it would be
+  /// more than `most`, some number above that.
+  double estimated_tests(const Task& task, const std::vector<Trace>& history, double radius, double most,
+                         support::Rng& rng) const;
 
   Cell draw_cell(support::Rng& rng) const;  ///< by weight
   PoseVector draw_in(const Cell& cell, support::Rng& rng) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "belief/episode.hpp"
 
 /// What is proved of every pose that may have given a history, by looking into the cells.
@@ -138,7 +140,13 @@ TEST(LookInside, TakesAboutAsManyTestsAsEstimated) {
     CellBelief coarse(task(), options);
     ASSERT_TRUE(coarse.update(task(), belief::believed(history)));
     ASSERT_GT(coarse.coarsest(), 1.3 * radius);
-    const double estimate = coarse.estimated_tests(task(), history, radius, rng);
+    constexpr double no_limit = std::numeric_limits<double>::infinity();
+    Rng again = rng, same = rng;
+    const double estimate = coarse.estimated_tests(task(), history, radius, no_limit, rng);
+    EXPECT_EQ(coarse.estimated_tests(task(), history, radius, estimate, again), estimate);
+    const double stopped = coarse.estimated_tests(task(), history, radius, estimate / 3.0, same);
+    EXPECT_GT(stopped, estimate / 3.0);
+    EXPECT_LE(stopped, estimate);
     const auto succeeds_with = [&](double tests) {
       CellBelief cells = coarse;
       const auto fine = [&](const Cell& cell) { return coarse.radius(cell) <= radius; };
