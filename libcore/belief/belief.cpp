@@ -20,12 +20,12 @@ constexpr double weighed_radius = 0.0008;   // m, of those
 constexpr action::Sensing suspected{
     .stopping_distance = 0.002, .encoder_error = 0.0001, .missed_contacts = 0.02, .false_contacts = 0.02};
 
-constexpr std::size_t parts_asked = 400;       // whether they are seated
-constexpr double tests_to_look = 1e5;          // of parts when cells are looked into
-constexpr std::size_t tests_to_prove = 100;    // the same, for each cell there is room for, to prove that it is seated
-constexpr std::size_t crowded = 5;             // cells for each there is room for: no more are looked into
-constexpr double hardly_less = 0.97;           // of the weight, left by an observation that told next to nothing
-constexpr std::uint32_t patience = 3;          // such observations in a row
+constexpr std::size_t parts_asked = 400;     // whether they are seated
+constexpr double tests_to_look = 1e5;        // of parts when cells are looked into
+constexpr std::size_t tests_to_prove = 100;  // the same, for each cell there is room for, to prove that it is seated
+constexpr std::size_t crowded = 5;           // cells for each there is room for: no more are looked into
+constexpr double hardly_less = 0.97;         // of the weight, left by an observation that told next to nothing
+constexpr std::uint32_t patience = 3;        // such observations in a row
 
 }  // namespace
 
