@@ -119,7 +119,8 @@ class Belief {
 
   /// Phase 1: up to `count` poses drawn from the prior and brought into agreement with the history, to a millimetre at
   /// least, from no farther away than half a voxel's diagonal or so; up to two thirds of them from the `known` ones, as
-  /// above. Fewer, or none, where they are rare. Looks no further after `latest_draw`. Throws `Cancelled`.
+  /// above. Fewer where they are rare; if fewer than ten, up to ten together with some that miss the history by half a
+  /// voxel's diagonal. Looks no further after `latest_draw`. Throws `Cancelled`.
   std::vector<Drawn> draw_feasible(std::size_t count, support::Rng& rng, const std::vector<Drawn>& known = {},
                                    const support::Deadline& deadline = support::Deadline::unlimited()) const;
 

@@ -23,8 +23,10 @@ constexpr double latest_unpaid = 0.2;         // of a budget, for bringing poses
 constexpr std::size_t unproved_share = 8;     // of them anywhere in a cell, for what no other speaks for
 constexpr std::size_t far_share = 16;         // of them in cells that are the farthest from any other pose;
 constexpr std::size_t most_compared = 30000;  // cells, if there are no more
-constexpr std::size_t samples_per_pose = 40;  // of draws from the prior
+constexpr std::size_t samples_per_pose = 40;  // of draws from the prior;
+constexpr std::size_t longer = 10;            // times as many as long as there are fewer than `fewest`
 constexpr std::size_t tries_per_pose = 2;     // of those that come near, to agree with the history
+constexpr std::size_t fewest = 10;            // made up from those that only come near
 
 /// A motion that met nothing would have met it. Such a pose is left out: moved out of the way it would be just beside
 /// what was swept, as would all others like it, and promise a contact to whatever the robot does next.
@@ -274,7 +276,7 @@ std::vector<Drawn> Belief::draw_explained(std::size_t count, support::Rng& rng,
 
 std::vector<Drawn> Belief::draw_feasible(std::size_t count, support::Rng& rng, const std::vector<Drawn>& known,
                                          const support::Deadline& deadline) const {
-  std::vector<Drawn> poses;
+  std::vector<Drawn> poses, coarse;
   const double radius = model_->voxels->grid.half_diagonal();
   const auto lacks = [&](std::size_t wanted) {
     return poses.size() < wanted && deadline.used_fraction() < latest_draw;
@@ -283,15 +285,16 @@ std::vector<Drawn> Belief::draw_feasible(std::size_t count, support::Rng& rng, c
     if (const auto still = brought_back(task(), history_, known[i], least_near, deadline.cancellation()))
       poses.push_back(*still);
   std::size_t tried = 0;
-  for (std::size_t i = 0; i < samples_per_pose * count && tried < tries_per_pose * count && lacks(count); ++i) {
+  const auto samples = [&] { return (poses.size() + coarse.size() < fewest ? longer : 1) * samples_per_pose * count; };
+  for (std::size_t i = 0; i < samples() && tried < tries_per_pose * count && lacks(count); ++i) {
     deadline.cancellation().check();
     const Pose pose = task().scene().prior.sample(rng);
     if (!may_reproduce(task(), history_, pose, radius) || was_missed(task(), history_, pose)) continue;
     ++tried;
-    if (const auto found =
-            projected(task(), history_, geometry::pose_vector(pose), least_near, deadline.cancellation()))
-      poses.push_back(drawn_from(*found));
+    const auto found = projected(task(), history_, geometry::pose_vector(pose), least_near, deadline.cancellation());
+    found ? poses.push_back(drawn_from(*found)) : coarse.push_back({pose, radius});
   }
+  for (std::size_t i = 0; i < coarse.size() && poses.size() < std::min(count, fewest); ++i) poses.push_back(coarse[i]);
   return poses;
 }
 

@@ -120,7 +120,7 @@ void Planner::note_fruitless(const belief::Belief& belief) {
   const std::vector<belief::Trace>& history = belief.history();
   const bool goes_on = history.size() >= standing_.observations &&
                        belief::fingerprint(history, standing_.observations) == standing_.history;
-  if (!goes_on) standing_ = {};
+  if (!goes_on) standing_ = {}, poses_.clear();
   const bool asked_again = goes_on && standing_.q.size() != 0 && history.size() == standing_.observations &&
                            belief.health() == belief::Health::good;
   if (asked_again) return;
@@ -205,10 +205,10 @@ std::vector<belief::Drawn> Planner::draw(const belief::Belief& belief, const sup
 }
 
 BeliefStatePtr Planner::on_voxels(const belief::Belief& belief, const support::Deadline& deadline) {
-  std::vector<geometry::Pose> feasible;
-  if (model_->options.likelihood == belief::Likelihood::calibrated)
-    feasible = belief::poses_of(belief.draw_feasible(model_->options.particles, rng_, {}, deadline));
-  return std::make_shared<VoxelProblem>(model_, library_, std::move(feasible), options_.cost_per_bit)
+  poses_ = model_->options.likelihood == belief::Likelihood::calibrated
+               ? belief.draw_feasible(model_->options.particles, rng_, poses_, deadline)
+               : std::vector<belief::Drawn>{};
+  return std::make_shared<VoxelProblem>(model_, library_, belief::poses_of(poses_), options_.cost_per_bit)
       ->start(belief.configuration(), belief.voxels());
 }
 
@@ -236,6 +236,7 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   const double used = deadline.elapsed_seconds() / options_.budget_seconds;
   if (search.bounded) fit_sample(searches ? sample_ : sample_after_, searches ? search_sample : 1.0, used);
   if (!is_greedy && !searches) policy_->search.run(deadline);
+  if (has_poses) predictions_->time_limit().lift();
 }
 
 /// As many poses as there is time to weigh all motions at the start for, by the share of the budget that the last ones

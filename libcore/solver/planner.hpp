@@ -103,7 +103,7 @@ class Planner {
   Standing standing_;
   double sample_;                             ///< times as many poses as long as nothing was met
   double sample_after_ = 1.0;                 ///< and from then on
-  std::vector<belief::Drawn> poses_;          ///< of the last planning call on poses
+  std::vector<belief::Drawn> poses_;          ///< of the last planning call, of the same history
   std::shared_ptr<Predictions> predictions_;  ///< of them
   std::unique_ptr<Policy> policy_;
   mutable std::vector<Alternative> alternatives_;  ///< once asked for

@@ -64,7 +64,7 @@ class PoseState : public BeliefState {
     std::vector<Choice> result = weighed(considered(), deadline);
     if (at_start_ && result.empty())
       result = weighed({problem_->library_->primitives_at(q_, problem_->cancellation())}, deadline);
-    if (at_start_ && problem_->policy_) weigh_carefully(result, deadline);
+    if (at_start_ && problem_->policy_) try_to_weigh_carefully(result, deadline);
     if (at_start_ && !problem_->policy_) problem_->price_bits(result);
     return result;
   }
@@ -100,6 +100,7 @@ class PoseState : public BeliefState {
   }
 
   /// Those that tell something or lead somewhere. The kinds take turns, so that there are some of each when time is up.
+  /// With an upper bound, whose policy may take long, what is in hand when it is too late is given up.
   std::vector<Choice> weighed(const Kinds& kinds, const support::Deadline& deadline) const {
     std::size_t turns = 0;
     for (const std::vector<MotionPtr>& kind : kinds) turns = std::max(turns, kind.size());
@@ -109,12 +110,28 @@ class PoseState : public BeliefState {
         if (turn >= kind.size() || !kind[turn]) continue;
         const bool is_late = at_start_ && turn < problem_->weighed_late() ? deadline.cancelled() : deadline.spent();
         if (is_late && !result.empty()) return result;
-        Choice choice = weigh(kind[turn]);
-        const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
-        const bool moves = !kind[turn]->anchored && choice.outcomes.front().waypoint == kind[turn]->path.size();
-        if (informs || moves) result.push_back(std::move(choice));
+        if (at_start_ && problem_->policy_ && !result.empty())
+          problem_->predictions_->time_limit().set(deadline.latest());
+        try {
+          Choice choice = weigh(kind[turn]);
+          const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
+          const bool moves = !kind[turn]->anchored && choice.outcomes.front().waypoint == kind[turn]->path.size();
+          if (informs || moves) result.push_back(std::move(choice));
+        } catch (const support::OutOfTime&) {
+          if (!at_start_) throw;
+          return result;
+        }
       }
     return result;
+  }
+
+  /// As far as there is time for.
+  void try_to_weigh_carefully(std::vector<Choice>& choices, const support::Deadline& deadline) const {
+    try {
+      weigh_carefully(choices, deadline);
+    } catch (const support::OutOfTime&) {
+      return;
+    }
   }
 
   static std::vector<std::size_t> indices(const Bitset& members) {

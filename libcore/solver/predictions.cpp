@@ -25,7 +25,7 @@ Predictions::Predictions(std::shared_ptr<const action::Task> task, std::vector<g
       misses_(std::move(misses)),
       blur_(blur),
       threads_(threads),
-      cancellation_(cancellation) {
+      cancellation_(cancellation, &time_limit_) {
   misses_.resize(poses_.size(), 0.0);
 }
 

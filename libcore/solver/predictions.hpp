@@ -34,12 +34,15 @@ class Predictions {
   /// use about where the target is.
   ///
   /// `threads` that look at the poses of a motion, as in `support::for_ranges`; the answers are the same. All that
-  /// looks at poses throws `Cancelled` when it is to end; what was found until then is kept.
+  /// looks at poses throws `Cancelled` or `OutOfTime` when it is to end; what was found until then is kept.
   Predictions(std::shared_ptr<const action::Task> task, std::vector<geometry::Pose> poses, double blur = 0.0,
               std::vector<double> misses = {}, int threads = 1, support::Cancellation cancellation = {});
 
   const std::vector<geometry::Pose>& poses() const { return poses_; }
   const support::Cancellation& cancellation() const { return cancellation_; }
+
+  /// Of all that asks `cancellation()`, which throws `OutOfTime` when it is over. There is none at first.
+  support::TimeLimit& time_limit() { return time_limit_; }
 
   /// What was found for an earlier planning call, of the poses that are the same and off by as much, on the motions
   /// that it asked for and somebody else still holds. The same answers as without.
@@ -91,6 +94,7 @@ class Predictions {
   std::vector<double> misses_;  ///< by pose
   double blur_;
   int threads_;
+  support::TimeLimit time_limit_;
   support::Cancellation cancellation_;
   std::unordered_map<const action::Motion*, Row> rows_;
 };

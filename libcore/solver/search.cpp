@@ -67,6 +67,14 @@ Search::Search(BeliefStatePtr start_state, const SearchOptions& options) : optio
 
 void Search::run(support::Deadline& deadline) {
   if (!nodes_[start].expanded) expand(start, deadline);
+  try {
+    trials(deadline);
+  } catch (const support::OutOfTime&) {
+    // What was to be found out is not known; all else is as it was.
+  }
+}
+
+void Search::trials(support::Deadline& deadline) {
   bool admissible_done = options_.epsilon <= 0.0;
   int idle = 0;
   while (!deadline.spent() && !converged()) {

@@ -27,8 +27,8 @@ class Search {
  public:
   Search(BeliefStatePtr start, const SearchOptions& options);
 
-  /// Trials until the deadline is spent, nothing changes any more, or a thousand trials met no belief that was new. May
-  /// be called again to go on.
+  /// Trials until the deadline is spent, nothing changes any more, or a thousand trials met no belief that was new, or
+  /// until what the beliefs do is out of time. May be called again to go on.
   void run(support::Deadline& deadline);
 
   /// Only what can be done from the start, for one-step rules.
@@ -66,6 +66,7 @@ class Search {
     std::size_t operator()(const support::Hash128& h) const { return h.low; }
   };
 
+  void trials(support::Deadline& deadline);
   bool trial(support::Deadline& deadline, ValueType guide);
   bool converged() const;
   std::optional<std::size_t> outcome_to_follow(int node, std::size_t choice) const;

@@ -332,7 +332,7 @@ const std::vector<MotionPtr>& VoxelProblem::anchored(const VoxelBelief& voxels, 
   if (!anchored_made_) {
     const Box box =
         box_of(voxels.possibly_occupied(), voxels.model().grid, model_->task->frame().base_from_search.inverse());
-    anchored_ = action::probes(*model_->task, box.inflated(0.5 * voxels.model().grid.pitch()), near, lines_per_side);
+    anchored_ = library_->probes_in(box.inflated(0.5 * voxels.model().grid.pitch()), near, lines_per_side);
   }
   anchored_made_ = true;
   return anchored_;

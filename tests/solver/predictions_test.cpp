@@ -296,6 +296,26 @@ TEST(FirstContact, CountsWhereTheRobotGoesDeeperThanAPoseIsOff) {
   EXPECT_GT(later, 20);
 }
 
+TEST(Predictions, AreTheSameAfterATimeLimitThatCutThemShort) {
+  Rng rng(33);
+  action::ActionLibrary library(*task());
+  for (int round = 0; round < 10; ++round) {
+    std::vector<Pose> drawn;
+    for (std::size_t i = 0; i < poses; ++i) drawn.push_back(task()->scene().prior.sample(rng));
+    Predictions limited(task(), drawn), plain(task(), drawn);
+    const action::MotionPtr motion = motion_of(random_action(*task(), library, task()->scene().start, rng));
+    const std::size_t known = rng.below(poses);
+    for (std::size_t pose = 0; pose < known; ++pose) limited.first_contact(motion, pose);
+    limited.time_limit().set(support::TimeLimit::Clock::now());
+    for (std::size_t pose = 0; pose < known; ++pose)
+      EXPECT_EQ(limited.first_contact(motion, pose), plain.first_contact(motion, pose)) << "known already";
+    EXPECT_THROW(limited.first_contacts(motion), support::OutOfTime);
+    EXPECT_THROW(limited.split(motion, Bitset(poses, true)), support::OutOfTime);
+    limited.time_limit().lift();
+    EXPECT_EQ(limited.first_contacts(motion), plain.first_contacts(motion));
+  }
+}
+
 TEST(LeastGroup, IsHalfOfWhatAContactLeavesOfAnEvenLayout) {
   EXPECT_EQ(solver::least_group(100, 2), 5u);
   EXPECT_EQ(solver::least_group(64, 3), 8u);

@@ -185,6 +185,31 @@ TEST(Search, HasLowerBoundsOnlyWhereThereWasTimeToWeighAll) {
   }
 }
 
+/// What took too long is left undone, and whoever has more time comes to the optimum all the same.
+TEST(Search, EndsWhereABeliefIsOutOfTimeAndMayGoOn) {
+  Rng rng(13);
+  int interrupted = 0;
+  for (std::size_t last = 2; last < 40; ++last) {
+    Toy toy = *guessed(rng, 1, {0.0, 1.0}, {0.0, 1.0});
+    const double least = optimum(toy)[0];
+    std::size_t asked = 0;
+    toy.when_asked = [&] {
+      if (++asked == last) throw support::OutOfTime{};
+    };
+    Search tried = search(std::make_shared<const Toy>(toy), 1.0);
+    Deadline deadline = Deadline::unlimited();
+    tried.run(deadline);
+    if (asked < last) continue;
+    ++interrupted;
+    EXPECT_EQ(deadline.expansions(), last - 1);
+    EXPECT_TRUE(tried.best(Search::start));
+    for (int node = 0; node < nodes(tried); ++node) EXPECT_EQ(tried.expanded(node), !tried.choices(node).empty());
+    tried.run(deadline);
+    EXPECT_NEAR(tried.value(Search::start, ValueType::admissible), least, exact);
+  }
+  EXPECT_GT(interrupted, 10);
+}
+
 TEST(Search, GivesTheSameForTheSameBudget) {
   Rng rng(6);
   for (int i = 0; i < 20; ++i) {

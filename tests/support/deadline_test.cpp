@@ -67,5 +67,31 @@ TEST(Deadline, TheFractionOfAnEmptyBudgetIsOne) {
   EXPECT_EQ(Deadline(0.0, UINT64_MAX).used_fraction(), 1.0);
 }
 
+TEST(Deadline, ItsLatestIsATwentiethLater) {
+  const auto now = Deadline::Clock::now();
+  const Deadline deadline(100.0, UINT64_MAX);
+  const std::chrono::duration<double> until = deadline.latest() - now;
+  EXPECT_GE(until.count(), 105.0 - 1e-6);
+  EXPECT_LT(until.count(), 105.0 + 100.0 * deadline.used_fraction() + 1e-3);
+  EXPECT_EQ(Deadline::unlimited().latest(), Deadline::Clock::time_point::max());
+}
+
+TEST(TimeLimit, EndsWhatAsksUntilItIsLifted) {
+  std::atomic<bool> cancelled{false};
+  TimeLimit limit;
+  const Cancellation of_both(Cancellation(&cancelled), &limit);
+  EXPECT_NO_THROW(of_both.check());
+  limit.set(TimeLimit::Clock::time_point::max());
+  EXPECT_NO_THROW(of_both.check());
+  limit.set(TimeLimit::Clock::now());
+  EXPECT_THROW(of_both.check(), OutOfTime);
+  EXPECT_FALSE(of_both.requested()) << "by nobody";
+  cancelled = true;
+  EXPECT_THROW(of_both.check(), Cancelled);
+  cancelled = false;
+  limit.lift();
+  EXPECT_NO_THROW(of_both.check());
+}
+
 }  // namespace
 }  // namespace tactus::support
