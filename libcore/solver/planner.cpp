@@ -24,7 +24,8 @@ constexpr double telling = 0.6;           // of the bits per cost that the best 
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
 constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then;
-constexpr double least_sample = 0.5;      // and so many at least
+constexpr double least_sample = 0.5;      // and so many at least;
+constexpr double least_after = 0.25;      // and once something was met
 constexpr double aim = 0.7;               // of a budget in seconds, to weigh the motions where planning starts
 constexpr double in_time = 0.95;          // of a budget in seconds: what is in hand then still has to be finished
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
@@ -234,17 +235,18 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   const bool is_greedy = greedy_of(options_.solver).has_value();
   if (is_greedy || search.bounded) policy_->search.expand_start(deadline);
   const double used = deadline.elapsed_seconds() / options_.budget_seconds;
-  if (search.bounded) fit_sample(searches ? sample_ : sample_after_, searches ? search_sample : 1.0, used);
+  if (search.bounded && searches) fit_sample(sample_, least_sample, search_sample, used);
+  if (search.bounded && !searches) fit_sample(sample_after_, least_after, 1.0, used);
   if (!is_greedy && !searches) policy_->search.run(deadline);
   if (has_poses) predictions_->time_limit().lift();
 }
 
 /// As many poses as there is time to weigh all motions at the start for, by the share of the budget that the last ones
 /// `used`.
-void Planner::fit_sample(double& times, double most, double used) const {
+void Planner::fit_sample(double& times, double least, double most, double used) const {
   constexpr double at_least = 0.4, at_most = 1.6;
   if (std::isinf(options_.budget_seconds)) return;
-  times = std::clamp(times * std::clamp(aim / used, at_least, at_most), least_sample, most);
+  times = std::clamp(times * std::clamp(aim / used, at_least, at_most), least, most);
 }
 
 /// Notes what there is to follow.

@@ -68,7 +68,7 @@ class Planner {
   void predict(const belief::Belief& belief);
   bool is_bounded() const { return second_value_of(options_.solver) == SecondValue::upper_bound; }
   std::vector<belief::Drawn> draw(const belief::Belief& belief, const support::Deadline& deadline);
-  void fit_sample(double& times, double most, double used) const;
+  void fit_sample(double& times, double least, double most, double used) const;
   BeliefStatePtr on_voxels(const belief::Belief& belief, const support::Deadline& deadline);
   BeliefStatePtr on_poses(const belief::Belief& belief);
   void plan(const belief::Belief& belief, support::Deadline& deadline);

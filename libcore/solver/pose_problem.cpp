@@ -57,9 +57,7 @@ class PoseState : public BeliefState {
   const JointVector& configuration() const override { return q_; }
   std::size_t support_size() const override { return members_.count(); }
 
-  Values heuristic() const override {
-    return values(problem_->task_->base_from_tool(q_), indices(members_), false, Bound::policy);
-  }
+  Values heuristic() const override { return values(problem_->task_->base_from_tool(q_), indices(members_), false); }
 
   std::vector<Choice> choices(const support::Deadline& deadline) const override {
     if (at_start_) problem_->cost_per_bit_ = 1.0;
@@ -81,7 +79,6 @@ class PoseState : public BeliefState {
 
  private:
   using Kinds = std::vector<std::vector<MotionPtr>>;
-  enum class Bound { policy, attempts };  ///< whose cost the upper bound is
 
   Kinds considered() const {
     Kinds kinds;
@@ -103,8 +100,8 @@ class PoseState : public BeliefState {
   }
 
   /// Those that tell something or lead somewhere. The kinds take turns, so that there are some of each when time is up.
-  /// With an upper bound, whose policy may take long, what is still to be weighed when it is too late is bounded by
-  /// attempts alone.
+  /// With an upper bound, whose policy may take long, what is in hand when it is too late is given up, but for those
+  /// few.
   std::vector<Choice> weighed(const Kinds& kinds, const support::Deadline& deadline) const {
     std::size_t turns = 0;
     for (const std::vector<MotionPtr>& kind : kinds) turns = std::max(turns, kind.size());
@@ -112,29 +109,29 @@ class PoseState : public BeliefState {
     for (std::size_t turn = 0; turn < turns; ++turn)
       for (const std::vector<MotionPtr>& kind : kinds) {
         if (turn >= kind.size() || !kind[turn]) continue;
-        const bool is_late = at_start_ && turn < problem_->weighed_late() ? deadline.cancelled() : deadline.spent();
-        if (is_late && !result.empty()) return result;
-        if (at_start_ && problem_->policy_ && !result.empty())
-          problem_->predictions_->time_limit().set(deadline.latest());
-        Choice choice = at_start_ ? weigh_in_time(kind[turn]) : weigh(kind[turn], Bound::policy);
-        const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
-        const bool moves = !kind[turn]->anchored && choice.outcomes.front().waypoint == kind[turn]->path.size();
-        if (informs || moves) result.push_back(std::move(choice));
+        const bool is_wanted = at_start_ && turn < problem_->weighed_late();
+        if ((is_wanted ? deadline.cancelled() : deadline.spent()) && !result.empty()) return result;
+        if (at_start_ && !is_wanted && !result.empty()) limit_to(deadline);
+        try {
+          Choice choice = weigh(kind[turn]);
+          const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
+          const bool moves = !kind[turn]->anchored && choice.outcomes.front().waypoint == kind[turn]->path.size();
+          if (informs || moves) result.push_back(std::move(choice));
+        } catch (const support::OutOfTime&) {
+          if (!at_start_) throw;
+          return result;
+        }
       }
     return result;
   }
 
-  Choice weigh_in_time(const MotionPtr& motion) const {
-    try {
-      return weigh(motion, Bound::policy);
-    } catch (const support::OutOfTime&) {
-      problem_->predictions_->time_limit().lift();
-      return weigh(motion, Bound::attempts);
-    }
+  void limit_to(const support::Deadline& deadline) const {
+    problem_->predictions_->time_limit().set(deadline.latest());
   }
 
   /// As far as there is time for.
   void try_to_weigh_carefully(std::vector<Choice>& choices, const support::Deadline& deadline) const {
+    limit_to(deadline);
     try {
       weigh_carefully(choices, deadline);
     } catch (const support::OutOfTime&) {
@@ -178,11 +175,10 @@ class PoseState : public BeliefState {
   }
 
   /// h_ad is the mean cost of going straight to the seats; h_inad adds what the missing bits are worth.
-  Values values(const Pose& base_from_tool, const std::vector<std::size_t>& group, bool is_met, Bound bound) const {
+  Values values(const Pose& base_from_tool, const std::vector<std::size_t>& group, bool is_met) const {
     double direct = 0.0;
     for (const std::size_t pose : group) direct += problem_->direct_cost(base_from_tool, pose);
     direct /= static_cast<double>(group.size());
-    if (bound == Bound::attempts) return {direct, problem_->policy_->cost_of_attempts(group, base_from_tool)};
     if (problem_->policy_) return {direct, problem_->simulated(group, base_from_tool, is_met, WalkPolicy::quick)};
     const double share =
         static_cast<double>(group.size()) / static_cast<double>(problem_->predictions_->poses().size());
@@ -190,7 +186,7 @@ class PoseState : public BeliefState {
     return {direct, direct + problem_->cost_per_bit_ * std::max(0.0, bits)};
   }
 
-  Choice weigh(const MotionPtr& motion, Bound bound) const {
+  Choice weigh(const MotionPtr& motion) const {
     const auto total = static_cast<double>(members_.count());
     const double lead = motion->anchored ? action::transit_cost(*problem_->task_, problem_->task_->base_from_tool(q_),
                                                                 motion->base_from_start)
@@ -209,8 +205,7 @@ class PoseState : public BeliefState {
           waypoint == motion->path.size() && motion->kind == action::Kind::insertion &&
           std::all_of(group.begin(), group.end(), [&](std::size_t pose) { return problem_->seated(*motion, pose); });
       const bool is_met = waypoint < motion->path.size();
-      if (!outcome.goal)
-        outcome.heuristic = values(motion->bodies.base_from_body(waypoint - 1, 0), group, is_met, bound);
+      if (!outcome.goal) outcome.heuristic = values(motion->bodies.base_from_body(waypoint - 1, 0), group, is_met);
       choice.outcomes.push_back(outcome);
     }
     return choice;

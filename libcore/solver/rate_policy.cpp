@@ -58,11 +58,6 @@ double RatePolicy::cost(const Members& members, const Pose& base_from_tool) {
   return first_cost(base_from_tool, first) + first.cost;
 }
 
-double RatePolicy::cost_of_attempts(const Members& members, const Pose& base_from_tool) const {
-  const Plan attempts = attempts_at(members);
-  return first_cost(base_from_tool, attempts) + attempts.cost;
-}
-
 std::vector<double> RatePolicy::costs(const Members& members, const Pose& base_from_tool) {
   const Plan& first = plan(members, base_from_tool);
   std::vector<double> costs = first.costs;

@@ -36,9 +36,6 @@ class RatePolicy {
   /// is.
   double cost(const Members& members, const geometry::Pose& base_from_tool);
 
-  /// The same of the attempts alone, one after another: more, and at once.
-  double cost_of_attempts(const Members& members, const geometry::Pose& base_from_tool) const;
-
   /// The same by member: what it costs if the target is at that one, of which only the policy does not know.
   std::vector<double> costs(const Members& members, const geometry::Pose& base_from_tool);
 

@@ -193,35 +193,6 @@ TEST(Choices, AreSomeOfEveryKindWhereThereIsNoTime) {
   }
 }
 
-/// The same motions do the same, and are bounded by no less.
-TEST(Choices, AreBoundedMoreLooselyWhereThereIsNoTime) {
-  const support::Deadline no_time(0.0, UINT64_MAX);
-  Rng rng(15);
-  int compared = 0, looser = 0;
-  for (int i = 0; i < 3; ++i) {
-    const std::vector<Pose> poses = random_poses(rng);
-    const auto all = weighed_at_start(poses, SecondValue::upper_bound, support::Deadline::unlimited(), false);
-    for (const Choice& choice : weighed_at_start(poses, SecondValue::upper_bound, no_time, false)) {
-      const auto same = std::find_if(all.begin(), all.end(), [&](const Choice& other) {
-        return action::path_id(other.motion->path) == action::path_id(choice.motion->path);
-      });
-      if (same == all.end()) continue;
-      ASSERT_EQ(choice.outcomes.size(), same->outcomes.size());
-      for (std::size_t z = 0; z < choice.outcomes.size(); ++z) {
-        const Outcome &found = choice.outcomes[z], &plain = same->outcomes[z];
-        EXPECT_EQ(found.probability, plain.probability);
-        EXPECT_EQ(found.cost, plain.cost);
-        EXPECT_EQ(found.heuristic[0], plain.heuristic[0]);
-        EXPECT_GE(found.heuristic[1], plain.heuristic[1] - 1e-9);
-        looser += found.heuristic[1] > plain.heuristic[1] + 1e-9;
-        ++compared;
-      }
-    }
-  }
-  EXPECT_GT(compared, 10);
-  EXPECT_GT(looser, 0);
-}
-
 TEST(Choices, CostTheWayToTheirStartAndAlongThem) {
   for_random_beliefs(2, 2, [](const Tracked& at, const std::vector<Choice>& choices, Rng&) {
     const Pose tool = task()->base_from_tool(at.state->configuration());
