@@ -166,6 +166,25 @@ TEST(Feasible, PosesComeWithinAMillimetreOfTheHistoryOrSayByHowMuchTheyMissItAnd
   EXPECT_GT(drawn, 60);
 }
 
+/// However rare those are that agree with the history to a millimetre.
+TEST(Feasible, PosesAreTenAtLeast) {
+  Rng rng(8);
+  int asked = 0, rare = 0;
+  for (const std::uint64_t seed : {61u, 62u, 63u, 64u}) {
+    Episode episode(model(Kind::hierarchical), seed);
+    for (int i = 0; i < 7; ++i) {
+      episode.step();
+      if (episode.belief.phase() != belief::Phase::voxels) continue;
+      const std::vector<belief::Drawn> poses = episode.belief.draw_feasible(30, rng);
+      EXPECT_GE(poses.size(), 10u) << "seed " << seed << ", action " << i;
+      ++asked;
+      rare += std::any_of(poses.begin(), poses.end(), [](const belief::Drawn& one) { return one.miss > millimetre; });
+    }
+  }
+  EXPECT_GT(asked, 5);
+  EXPECT_GT(rare, 0);
+}
+
 /// Bit for bit, so that what was found of it holds.
 TEST(Drawn, WhatAgreesWithWhatWasFeltSinceStaysAsItIs) {
   Rng rng(5);
