@@ -61,10 +61,15 @@ class PoseState : public BeliefState {
 
   std::vector<Choice> choices(const support::Deadline& deadline) const override {
     if (at_start_) problem_->cost_per_bit_ = 1.0;
-    std::vector<Choice> result = weighed(considered(), deadline);
-    if (at_start_ && result.empty())
-      result = weighed({problem_->library_->primitives_at(q_, problem_->cancellation())}, deadline);
-    if (at_start_ && problem_->policy_) try_to_weigh_carefully(result, deadline);
+    std::vector<Choice> result;
+    try {
+      add_weighed(considered(), deadline, result);
+      if (at_start_ && result.empty())
+        add_weighed({problem_->library_->primitives_at(q_, problem_->cancellation())}, deadline, result);
+      if (at_start_ && problem_->policy_) weigh_carefully(result, deadline);
+    } catch (const support::OutOfTime&) {
+      if (!at_start_) throw;
+    }
     if (at_start_ && !problem_->policy_) problem_->price_bits(result);
     return result;
   }
@@ -102,41 +107,24 @@ class PoseState : public BeliefState {
   /// Those that tell something or lead somewhere. The kinds take turns, so that there are some of each when time is up.
   /// With an upper bound, whose policy may take long, what is in hand when it is too late is given up, but for those
   /// few.
-  std::vector<Choice> weighed(const Kinds& kinds, const support::Deadline& deadline) const {
+  void add_weighed(const Kinds& kinds, const support::Deadline& deadline, std::vector<Choice>& result) const {
     std::size_t turns = 0;
     for (const std::vector<MotionPtr>& kind : kinds) turns = std::max(turns, kind.size());
-    std::vector<Choice> result;
     for (std::size_t turn = 0; turn < turns; ++turn)
       for (const std::vector<MotionPtr>& kind : kinds) {
         if (turn >= kind.size() || !kind[turn]) continue;
         const bool is_wanted = at_start_ && turn < problem_->weighed_late();
-        if ((is_wanted ? deadline.cancelled() : deadline.spent()) && !result.empty()) return result;
+        if ((is_wanted ? deadline.cancelled() : deadline.spent()) && !result.empty()) return;
         if (at_start_ && !is_wanted && !result.empty()) limit_to(deadline);
-        try {
-          Choice choice = weigh(kind[turn]);
-          const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
-          const bool moves = !kind[turn]->anchored && choice.outcomes.front().waypoint == kind[turn]->path.size();
-          if (informs || moves) result.push_back(std::move(choice));
-        } catch (const support::OutOfTime&) {
-          if (!at_start_) throw;
-          return result;
-        }
+        Choice choice = weigh(kind[turn]);
+        const bool informs = choice.outcomes.size() > 1 || choice.outcomes.front().goal;
+        const bool moves = !kind[turn]->anchored && choice.outcomes.front().waypoint == kind[turn]->path.size();
+        if (informs || moves) result.push_back(std::move(choice));
       }
-    return result;
   }
 
   void limit_to(const support::Deadline& deadline) const {
     problem_->predictions_->time_limit().set(deadline.latest());
-  }
-
-  /// As far as there is time for.
-  void try_to_weigh_carefully(std::vector<Choice>& choices, const support::Deadline& deadline) const {
-    limit_to(deadline);
-    try {
-      weigh_carefully(choices, deadline);
-    } catch (const support::OutOfTime&) {
-      return;
-    }
   }
 
   static std::vector<std::size_t> indices(const Bitset& members) {
@@ -147,6 +135,7 @@ class PoseState : public BeliefState {
 
   /// The upper bounds of the choices that have the least: they decide.
   void weigh_carefully(std::vector<Choice>& choices, const support::Deadline& deadline) const {
+    if (!choices.empty()) limit_to(deadline);
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < choices.size(); ++i) {
       double cost = choices[i].expected_cost();
