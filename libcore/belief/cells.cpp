@@ -14,6 +14,7 @@ constexpr std::size_t first_round = 16;     // of cells that are looked into; ea
 constexpr std::size_t lot = 200;            // of cells that stand for all
 constexpr std::size_t parts_per_cell = 10;  // that are kept of cells looked into, for each there is room for else
 constexpr std::size_t stride = 61;          // between cells that are looked into one after another
+constexpr double finest_part = 0.00002;     // m: a part of a cell that is looked into need not be finer
 
 /// The indices below `count` in long steps.
 std::vector<std::size_t> strided(std::size_t count) {
@@ -303,7 +304,7 @@ CellBelief::Inside CellBelief::inside(const Task& task, const std::vector<Trace>
       found.parts.push_back(cell);
       continue;
     }
-    if (!may_split(cell) || found.tests >= most_tests) return found;
+    if (radius(cell) <= finest_part || found.tests >= most_tests) return found;
     found.tests += 2;
     for (const Cell& half : frame_.halves(cell))
       if (may_reproduce(task, history, order, half)) open.push_back(half);

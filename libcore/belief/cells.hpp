@@ -77,7 +77,7 @@ class CellBelief {
   /// `fine`, and the parts tested against the whole history. Cells of which nothing is left go, the others are replaced
   /// by their parts as long as there is room. `all`: every pose that may have given the history lies in a part that is
   /// fine, which proves whatever can be asked of a cell. `none`: no pose may have given it. Unchanged unless `all`,
-  /// also where it had to give up: one of the finest is not fine, some `most_tests` were made, or the cells are too
+  /// also where it had to give up: a part of 0.02 mm is not fine, some `most_tests` were made, or the cells are too
   /// many.
   Looked look_inside(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& fine,
                      std::size_t most_tests);
@@ -108,7 +108,6 @@ class CellBelief {
   static CellBelief weighed(const Task& task, const CellOptions& options, std::vector<Cell> cells);
 
  private:
-  bool may_split(const Cell& cell) const { return radius(cell) > options_.finest_radius; }
   double coarsest(const std::vector<Cell>& cells) const;
   bool any_coarser(const std::vector<Cell>& cells, double wanted) const;
   std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,

@@ -101,11 +101,17 @@ TEST(Proof, KeepsTheTruth) {
   }
 }
 
+std::shared_ptr<const belief::Model> model_with(const belief::CellOptions& cells) {
+  belief::Options options = model()->options;
+  options.cells = cells;
+  return std::make_shared<const belief::Model>(model()->task, options);
+}
+
 TEST(Proof, IsTheSameOnAnyNumberOfThreads) {
   const auto threaded = [](int threads) {
-    belief::Options options = model()->options;
-    options.cells.threads = threads;
-    return std::make_shared<const belief::Model>(model()->task, options);
+    belief::CellOptions cells = model()->options.cells;
+    cells.threads = threads;
+    return model_with(cells);
   };
   const auto one = threaded(1), three = threaded(3);
   for (const std::uint64_t seed : {31u, 32u, 33u}) {
@@ -119,6 +125,27 @@ TEST(Proof, IsTheSameOnAnyNumberOfThreads) {
       ASSERT_EQ(cells_a.cells(), cells_b.cells());
     }
   }
+}
+
+/// What is proved of fine cells is proved of coarse ones too: the parts are finer than cells are ever split.
+TEST(Proof, GoesFinerThanCells) {
+  belief::CellOptions coarse = model()->options.cells;
+  coarse.finest_radius = 0.002;
+  const auto with_coarse = model_with(coarse);
+  int proved = 0;
+  for (const std::uint64_t seed : {51u, 52u, 53u, 54u}) {
+    Episode a(model(), seed), b(with_coarse, seed);
+    for (int i = 0; i < 6; ++i) {
+      a.step(), b.step();
+      if (a.belief.cells().grid() || b.belief.cells().grid()) continue;
+      CellBelief cells_a = a.belief.cells(), cells_b = b.belief.cells();
+      const Below below{1, a.truth[1] + 0.002};
+      if (!prove(cells_a, a.belief, below)) continue;
+      ++proved;
+      EXPECT_TRUE(prove(cells_b, b.belief, below)) << "seed " << seed << ", action " << i;
+    }
+  }
+  EXPECT_GT(proved, 0);
 }
 
 TEST(Proof, IsGivenUpWithTooFewTests) {
