@@ -20,12 +20,12 @@ constexpr double weighed_radius = 0.0008;   // m, of those
 constexpr action::Sensing suspected{
     .stopping_distance = 0.002, .encoder_error = 0.0001, .missed_contacts = 0.02, .false_contacts = 0.02};
 
-constexpr std::size_t parts_asked = 400;     // whether they are seated
-constexpr double tests_to_look = 1e5;        // of parts when cells are looked into
-constexpr std::size_t tests_to_prove = 100;  // the same, for each cell there is room for, to prove that it is seated
-constexpr std::size_t crowded = 5;           // cells for each there is room for: no more are looked into
-constexpr double hardly_less = 0.97;         // of the weight, left by an observation that told next to nothing
-constexpr std::uint32_t patience = 3;        // such observations in a row
+constexpr std::size_t parts_asked = 400;              // whether they are seated
+constexpr std::uint64_t looks_to_look = 4'000'000;    // of the contact engine, into cells
+constexpr std::uint64_t looks_to_prove = 40'000'000;  // the same, to prove that the tool is seated
+constexpr std::size_t crowded = 5;                    // cells for each there is room for: no more are looked into
+constexpr double hardly_less = 0.97;                  // of the weight, left by an observation that told next to nothing
+constexpr std::uint32_t patience = 3;                 // such observations in a row
 
 }  // namespace
 
@@ -170,9 +170,10 @@ Looked Belief::look_closer(double radius) {
   const std::size_t room = model_->options.cells.most;
   if (cells_->coarsest() <= radius || cells_->size() > crowded * room) return Looked::gave_up;
   support::Rng rng(fingerprint(history_, history_.size()));
-  if (cells_->estimated_tests(task(), history_, radius, tests_to_look, rng) > tests_to_look) return Looked::gave_up;
+  constexpr auto most = static_cast<double>(looks_to_look);
+  if (cells_->estimated_looks(task(), history_, radius, most, rng) > most) return Looked::gave_up;
   const auto fine = [&](const Cell& cell) { return cells_->radius(cell) <= radius; };
-  const Looked looked = cells_->look_inside(task(), history_, fine, static_cast<std::size_t>(2.0 * tests_to_look));
+  const Looked looked = cells_->look_inside(task(), history_, fine, 2 * looks_to_look);
   if (looked != Looked::all) return looked;
   standstill_ = 0;
   return refine() ? Looked::all : Looked::none;
@@ -216,7 +217,7 @@ bool Belief::prove_seated() {
   support::Rng rng(fingerprint(history_, history_.size()));
   const std::vector<Cell> parts = cells_->draw_parts(task(), history_, parts_asked, fine_radius, rng);
   if (2 * static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(), seated)) <= parts.size()) return false;
-  return cells_->look_inside(task(), history_, seated, tests_to_prove * model_->options.cells.most) == Looked::all;
+  return cells_->look_inside(task(), history_, seated, looks_to_prove) == Looked::all;
 }
 
 }  // namespace tactus::belief

@@ -12,8 +12,11 @@ namespace {
 
 constexpr std::size_t first_round = 16;     // of cells that are looked into; each next round is twice as long
 constexpr std::size_t lot = 200;            // of cells that stand for all
-constexpr std::size_t parts_per_cell = 10;  // that are kept of cells looked into, for each there is room for else
+constexpr std::size_t parts_per_cell = 10;  // that are kept of cells looked into, for each there is room for else,
+constexpr std::size_t parts_meanwhile = 2;  // and as long as not all were looked into
 constexpr std::size_t stride = 61;          // between cells that are looked into one after another
+constexpr std::size_t batch = 64;           // of halves that are tested one after another
+constexpr std::size_t first_splits = 256;   // of cells; by what they take it is known how many more there is time for
 constexpr double finest_part = 0.00002;     // m: a part of a cell that is looked into need not be finer
 
 /// The indices below `count` in long steps.
@@ -29,6 +32,14 @@ std::vector<Cell> chosen(const std::vector<Cell>& cells, const std::vector<char>
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (which[i]) result.push_back(cells[i]);
   return result;
+}
+
+/// How many cells to split next, by what it took to split some and what is left.
+std::size_t more_splits(std::size_t splits, std::uint64_t took, std::uint64_t left) {
+  constexpr double most_growth = 4.0;
+  const double each = static_cast<double>(std::max<std::uint64_t>(1, took)) / static_cast<double>(splits);
+  return static_cast<std::size_t>(
+      std::max(1.0, std::min(most_growth * static_cast<double>(splits), static_cast<double>(left) / each)));
 }
 
 std::vector<std::size_t> latest_first(const std::vector<Trace>& history) {
@@ -155,11 +166,11 @@ bool CellBelief::update(const Task& task, const std::vector<const Trace*>& trace
 /// Whether the cell may have given the whole history. The trace that it can't have given moves to the front of `order`,
 /// to be the first that the next cell is asked for.
 bool CellBelief::may_reproduce(const Task& task, const std::vector<Trace>& history, std::vector<std::size_t>& order,
-                               const Cell& cell) const {
+                               const Cell& cell, Effort& effort) const {
   const Pose pose = geometry::pose_from(cell.centre);
   const double r = radius(cell);
   const auto impossible = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
-    return !history[i].doubted && !belief::may_reproduce(task, history[i], pose, r);
+    return !history[i].doubted && !belief::may_reproduce(task, history[i], pose, r, &effort);
   });
   if (impossible == order.end()) return true;
   std::rotate(order.begin(), impossible, impossible + 1);
@@ -197,10 +208,9 @@ PoseVector CellBelief::draw_in(const Cell& cell, support::Rng& rng) const {
 }
 
 /// With the coarsest ones split, up to `most` of them, and the halves that can't have given the history left out.
-/// Counts the `tests` of halves.
 std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
                                                  const std::vector<Cell>& cells, std::size_t most, double finest,
-                                                 std::size_t* tests, const support::Cancellation& cancellation) const {
+                                                 Effort* effort, const support::Cancellation& cancellation) const {
   const double split_from = 0.8 * coarsest(cells);
   std::vector<Cell> candidates, kept;
   for (const Cell& cell : cells) {
@@ -209,15 +219,19 @@ std::vector<Cell> CellBelief::halves_of_coarsest(const Task& task, const std::ve
     else
       for (const Cell& half : frame_.halves(cell)) candidates.push_back(half);
   }
-  if (tests) *tests += candidates.size();
+  const std::size_t batches = (candidates.size() + batch - 1) / batch;
   std::vector<char> is_possible(candidates.size());
-  support::for_ranges(candidates.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::size_t> order = latest_first(history);
-    for (std::size_t i = begin; i < end; ++i) {
+  std::vector<Effort> efforts(batches);
+  support::for_ranges(batches, options_.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
       cancellation.check();
-      is_possible[i] = may_reproduce(task, history, order, candidates[i]);
+      std::vector<std::size_t> order = latest_first(history);
+      for (std::size_t i = b * batch; i < std::min(candidates.size(), (b + 1) * batch); ++i)
+        is_possible[i] = may_reproduce(task, history, order, candidates[i], efforts[b]);
     }
   });
+  if (effort)
+    for (const Effort& of_batch : efforts) effort->looks += of_batch.looks;
   const std::vector<Cell> possible = chosen(candidates, is_possible);
   kept.insert(kept.end(), possible.begin(), possible.end());
   return kept;
@@ -264,18 +278,23 @@ bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
                         const std::function<bool(const Cell&)>& fine) {
   if (grid_) return true;
   const std::size_t least_room = std::max<std::size_t>(1, options_.most / 16);
-  const std::size_t most_tests = options_.most_trace_tests / std::max<std::size_t>(1, history.size());
   std::vector<Cell> open = cells_, done;
-  std::size_t tests = 0;
+  Effort effort;
+  std::size_t splits = first_splits;
   bool is_possible = true;
   while (is_possible) {
     const auto first_done = std::stable_partition(open.begin(), open.end(), std::not_fn(fine));
     done.insert(done.end(), first_done, open.end());
     open.erase(first_done, open.end());
     const std::size_t count = open.size() + done.size();
-    if (count + least_room > options_.most || tests >= most_tests || !any_coarser(open, options_.finest_radius)) break;
-    const std::size_t most = std::min(options_.most - count, (most_tests - tests + 1) / 2);
-    std::vector<Cell> halves = halves_of_coarsest(task, history, open, most, options_.finest_radius, &tests);
+    if (count + least_room > options_.most || effort.looks >= options_.most_looks ||
+        !any_coarser(open, options_.finest_radius))
+      break;
+    const std::uint64_t before = effort.looks;
+    splits = std::min(splits, options_.most - count);
+    std::vector<Cell> halves = halves_of_coarsest(task, history, open, splits, options_.finest_radius, &effort);
+    splits =
+        more_splits(splits, effort.looks - before, options_.most_looks - std::min(options_.most_looks, effort.looks));
     is_possible = !halves.empty() || !done.empty();
     if (is_possible) open = std::move(halves);
   }
@@ -285,64 +304,66 @@ bool CellBelief::refine(const Task& task, const std::vector<Trace>& history,
   return is_possible;
 }
 
-/// What may have given the history of one cell: parts that are fine enough.
+/// What may have given the history of one cell, as far as it is known.
 struct CellBelief::Inside {
   std::vector<Cell> parts;
-  std::size_t tests = 0;
-  bool is_known = false;  ///< all of it
+  Effort effort;
+  bool is_known = false;  ///< they are all fine enough
 };
 
 CellBelief::Inside CellBelief::inside(const Task& task, const std::vector<Trace>& history, const Cell& whole,
-                                      const std::function<bool(const Cell&)>& fine, std::size_t most_tests,
-                                      std::vector<std::size_t>& order) const {
+                                      const std::function<bool(const Cell&)>& fine, std::uint64_t most_looks) const {
   Inside found;
+  std::vector<std::size_t> order = latest_first(history);
   std::vector<Cell> open{whole};
-  while (!open.empty()) {
+  while (!open.empty() && found.effort.looks < most_looks) {
     const Cell cell = open.back();
     open.pop_back();
     if (fine(cell)) {
       found.parts.push_back(cell);
       continue;
     }
-    if (radius(cell) <= finest_part || found.tests >= most_tests) return found;
-    found.tests += 2;
+    if (radius(cell) <= finest_part) return {{whole}, found.effort};
     for (const Cell& half : frame_.halves(cell))
-      if (may_reproduce(task, history, order, half)) open.push_back(half);
+      if (may_reproduce(task, history, order, half, found.effort)) open.push_back(half);
   }
-  found.is_known = true;
+  found.is_known = open.empty();
+  found.parts.insert(found.parts.end(), open.begin(), open.end());
   return found;
 }
 
+/// In rounds of cells, from all over: what a round may take is a share of what is left, so that one hard cell does not
+/// take it all.
 Looked CellBelief::look_inside(const Task& task, const std::vector<Trace>& history,
-                               const std::function<bool(const Cell&)>& fine, std::size_t most_tests) {
+                               const std::function<bool(const Cell&)>& fine, std::uint64_t most_looks) {
   if (size() > parts_per_cell * options_.most) return Looked::gave_up;
   const std::vector<Cell> wholes = cells();
   const std::vector<std::size_t> from_all_over = strided(wholes.size());
-  std::vector<Inside> found(wholes.size());
-  for (std::size_t first = 0, last = 0; first < wholes.size(); first = last) {
+  std::vector<Inside> found;
+  for (const Cell& whole : wholes) found.push_back({{whole}, {}});
+  bool all_known = true;
+  for (std::size_t first = 0, last = 0; first < wholes.size() && all_known; first = last) {
     last = std::min(wholes.size(), 2 * first + first_round);
+    const std::uint64_t each = most_looks / first_round;
     support::for_ranges(last - first, options_.threads, [&](std::size_t begin, std::size_t end) {
-      std::vector<std::size_t> order = latest_first(history);
-      for (std::size_t i = first + begin; i < first + end; ++i) {
-        const std::size_t cell = from_all_over[i];
-        found[cell] = inside(task, history, wholes[cell], fine, most_tests, order);
-        if (!found[cell].is_known) return;
-      }
+      for (std::size_t i = first + begin; i < first + end; ++i)
+        found[from_all_over[i]] = inside(task, history, wholes[from_all_over[i]], fine, each);
     });
     for (std::size_t i = first; i < last; ++i) {
       const Inside& cell = found[from_all_over[i]];
-      if (!cell.is_known || cell.tests > most_tests) return Looked::gave_up;
-      most_tests -= cell.tests;
+      all_known = all_known && cell.is_known && cell.effort.looks <= most_looks;
+      most_looks -= std::min(most_looks, cell.effort.looks);
     }
   }
   if (std::all_of(found.begin(), found.end(), [](const Inside& cell) { return cell.parts.empty(); }))
     return Looked::none;
-  replace(wholes, found);
-  return Looked::all;
+  if (!all_known && grid_) return Looked::gave_up;
+  replace(wholes, found, (all_known ? parts_per_cell : parts_meanwhile) * options_.most);
+  return all_known ? Looked::all : Looked::gave_up;
 }
 
 /// By their parts, those with the fewest first, as long as there is room.
-void CellBelief::replace(const std::vector<Cell>& wholes, const std::vector<Inside>& found) {
+void CellBelief::replace(const std::vector<Cell>& wholes, const std::vector<Inside>& found, std::size_t room) {
   std::vector<std::size_t> fewest_first;
   for (std::size_t i = 0; i < wholes.size(); ++i)
     if (!found[i].parts.empty()) fewest_first.push_back(i);
@@ -352,7 +373,7 @@ void CellBelief::replace(const std::vector<Cell>& wholes, const std::vector<Insi
   std::size_t whole = fewest_first.size();
   for (const std::size_t i : fewest_first) {
     --whole;
-    if (kept.size() + found[i].parts.size() + whole <= parts_per_cell * options_.most)
+    if (kept.size() + found[i].parts.size() + whole <= room)
       kept.insert(kept.end(), found[i].parts.begin(), found[i].parts.end());
     else
       kept.push_back(wholes[i]);
@@ -362,18 +383,19 @@ void CellBelief::replace(const std::vector<Cell>& wholes, const std::vector<Insi
   weigh();
 }
 
-double CellBelief::estimated_tests(const Task& task, const std::vector<Trace>& history, double wanted, double most,
+double CellBelief::estimated_looks(const Task& task, const std::vector<Trace>& history, double wanted, double most,
                                    support::Rng& rng) const {
   std::vector<Cell> parts = by_lot(lot, rng);
-  double all = static_cast<double>(size()), tests = 0.0;
-  while (tests <= most && any_coarser(parts, wanted)) {
+  double all = static_cast<double>(size()), looks = 0.0;
+  while (looks <= most && any_coarser(parts, wanted)) {
     const auto before = static_cast<double>(parts.size());
-    parts = halves_of_coarsest(task, history, parts, parts.size(), wanted);
-    tests += 2.0 * all;
+    Effort effort;
+    parts = halves_of_coarsest(task, history, parts, parts.size(), wanted, &effort);
+    looks += static_cast<double>(effort.looks) * all / before;
     all *= static_cast<double>(parts.size()) / before;
     if (parts.size() > 2 * lot) parts = thinned(parts, lot, rng);
   }
-  return tests;
+  return looks;
 }
 
 }  // namespace tactus::belief

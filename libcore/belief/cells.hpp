@@ -23,8 +23,8 @@ struct CellOptions {
   std::size_t most = 20000;              ///< cells are split while there are fewer; ten times that for `look_inside`
   std::size_t most_at_first = 1u << 21;  ///< initial cells are widened until there are no more than these
   double finest_radius = 0.00025;        ///< m: no cell with a smaller radius is split
-  /// Tests of one cell by one trace after which one `refine` ends; the next goes on where it was.
-  std::size_t most_trace_tests = 600000;
+  /// Looks of the contact engine after which one `refine` ends, or a little later; the next goes on where it was.
+  std::uint64_t most_looks = 2'500'000;
   std::shared_ptr<const CellTables> tables{};  ///< used while the cells are those of their grid; null: none
   int threads = 1;  ///< that test cells; 0: as many as the machine has. The answers are the same
 };
@@ -70,21 +70,21 @@ class CellBelief {
 
   /// Splits cells that are not `fine`, the coarsest first, as long as there is room for more, and tests the new ones
   /// against the whole history. False (and unchanged from there on) if that would leave none. Ends after
-  /// `CellOptions::most_trace_tests`: the next observation may leave fewer cells to split.
+  /// `CellOptions::most_looks`: the next observation may leave fewer cells to split.
   bool refine(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& fine);
 
   /// Looks into the cells, depth first, so that it takes no more room than what is found: they are split until they are
   /// `fine`, and the parts tested against the whole history. Cells of which nothing is left go, the others are replaced
   /// by their parts as long as there is room. `all`: every pose that may have given the history lies in a part that is
-  /// fine, which proves whatever can be asked of a cell. `none`: no pose may have given it. Unchanged unless `all`,
-  /// also where it had to give up: a part of 0.02 mm is not fine, some `most_tests` were made, or the cells are too
-  /// many.
+  /// fine, which proves whatever can be asked of a cell. `none`: no pose may have given it; then nothing is changed.
+  /// `gave_up`: a part of 0.02 mm is not fine, the cells are too many, or it took some `most_looks` of the contact
+  /// engine. What was found by then is kept as far as there is room for more cells, so that the next one goes on.
   Looked look_inside(const Task& task, const std::vector<Trace>& history, const std::function<bool(const Cell&)>& fine,
-                     std::size_t most_tests);
+                     std::uint64_t most_looks);
 
-  /// How many tests it would take to look for parts of at most `radius` (m), by what some cells take. Where it would be
-  /// more than `most`, some number above that.
-  double estimated_tests(const Task& task, const std::vector<Trace>& history, double radius, double most,
+  /// How many looks of the contact engine it would take to look for parts of at most `radius` (m), by what some cells
+  /// take. Where it would be more than `most`, some number above that.
+  double estimated_looks(const Task& task, const std::vector<Trace>& history, double radius, double most,
                          support::Rng& rng) const;
 
   Cell draw_cell(support::Rng& rng) const;  ///< by weight
@@ -112,15 +112,13 @@ class CellBelief {
   bool any_coarser(const std::vector<Cell>& cells, double wanted) const;
   std::vector<Cell> halves_of_coarsest(const Task& task, const std::vector<Trace>& history,
                                        const std::vector<Cell>& cells, std::size_t most, double finest,
-                                       std::size_t* tests = nullptr,
-                                       const support::Cancellation& cancellation = {}) const;
+                                       Effort* effort = nullptr, const support::Cancellation& cancellation = {}) const;
   bool may_reproduce(const Task& task, const std::vector<Trace>& history, std::vector<std::size_t>& order,
-                     const Cell& cell) const;
+                     const Cell& cell, Effort& effort) const;
   struct Inside;
   Inside inside(const Task& task, const std::vector<Trace>& history, const Cell& whole,
-                const std::function<bool(const Cell&)>& fine, std::size_t most_tests,
-                std::vector<std::size_t>& order) const;
-  void replace(const std::vector<Cell>& wholes, const std::vector<Inside>& found);
+                const std::function<bool(const Cell&)>& fine, std::uint64_t most_looks) const;
+  void replace(const std::vector<Cell>& wholes, const std::vector<Inside>& found, std::size_t room);
   std::vector<Cell> by_lot(std::size_t count, support::Rng& rng) const;
   Cell any_cell(support::Rng& rng) const;
   std::vector<Cell> thinned(const std::vector<Cell>& cells, std::size_t count, support::Rng& rng) const;

@@ -207,18 +207,19 @@ Trace retraced(const Task& task, const Trace& trace, const action::Sensing& sens
   return again;
 }
 
-bool may_touch(const Task& task, const Trace& trace, const Pose& base_from_target, double radius) {
+bool may_touch(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, Effort* effort) {
   const contact::TargetContact& target = task.target_contact();
   const double reach = radius + target.margin() + trace.error + trace.slack;
-  return target.first_within(trace.bodies, base_from_target, reach, trace.touch).has_value();
+  return target.first_within(trace.bodies, base_from_target, reach, trace.touch, effort).has_value();
 }
 
 /// No waypoint before the touch, from `from` on, is certainly in contact with the target at every pose of the set.
-bool may_be_free(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t from) {
+bool may_be_free(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, std::size_t from,
+                 Effort* effort = nullptr) {
   if (from >= trace.touch) return true;
   const contact::TargetContact& target = task.target_contact();
   const double sound = radius + target.margin() + trace.error;
-  const auto first = target.first_certain_contact(trace.bodies, base_from_target, sound, from);
+  const auto first = target.first_certain_contact(trace.bodies, base_from_target, sound, from, effort);
   return !first || *first >= trace.touch;
 }
 
@@ -229,9 +230,9 @@ bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_targ
   return !first || *first >= trace.touch;
 }
 
-bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius) {
-  return (!trace.contact || may_touch(task, trace, base_from_target, radius)) &&
-         may_be_free(task, trace, base_from_target, radius, 0);
+bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius, Effort* effort) {
+  return (!trace.contact || may_touch(task, trace, base_from_target, radius, effort)) &&
+         may_be_free(task, trace, base_from_target, radius, 0, effort);
 }
 
 bool reproduces(const Task& task, const std::vector<const Trace*>& traces, const Pose& base_from_target) {

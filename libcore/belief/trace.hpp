@@ -8,6 +8,7 @@ namespace tactus::belief {
 using action::Action;
 using action::Task;
 using contact::BodyPath;
+using contact::Effort;
 using geometry::Pose;
 using geometry::Vector3;
 using motion::JointPath;
@@ -71,11 +72,13 @@ Trace retraced(const Task& task, const Trace& trace, const action::Sensing& sens
 bool reproduces(const Task& task, const Trace& trace, const Pose& base_from_target);
 
 /// Whether some pose at which no point of the target is farther than `radius` from where it is at `base_from_target`
-/// may have given the trace. Errs to true only.
-bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius);
+/// may have given the trace. Errs to true only. Adds to `effort` if there is one.
+bool may_reproduce(const Task& task, const Trace& trace, const Pose& base_from_target, double radius,
+                   Effort* effort = nullptr);
 
 /// The same of where the robot stopped alone, for a trace with a contact.
-bool may_touch(const Task& task, const Trace& trace, const Pose& base_from_target, double radius);
+bool may_touch(const Task& task, const Trace& trace, const Pose& base_from_target, double radius,
+               Effort* effort = nullptr);
 
 /// The same of every one of some traces.
 bool reproduces(const Task& task, const std::vector<const Trace*>& traces, const Pose& base_from_target);

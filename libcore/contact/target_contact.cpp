@@ -145,19 +145,22 @@ Reach TargetContact::reach(const Body& body, const Pose& target_from_body, const
   walk.start(body.balls().root());
   const auto all_outside = [&] { return walk.clearance < kernel::none_above && body.balls().shells() == 1; };
   bool pieces_free = false;
+  std::uint64_t looks = 0;
   do {
+    ++looks;
     if (kernel_.walk(body.balls().blocks().data(), image_.view(), at, question, walk) == kernel::Verdict::hit)
-      return {true, 0.0};
+      return {true, 0.0, looks};
     fetch(body.balls().pieces(), walk);
     for (int i = 0; i < walk.piece_count; ++i)
-      if (piece_hit(body.balls().pieces()[walk.pieces[i]], target_from_body, at, asked)) return {true, 0.0};
+      if (++looks; piece_hit(body.balls().pieces()[walk.pieces[i]], target_from_body, at, asked))
+        return {true, 0.0, looks};
     pieces_free = pieces_free || walk.piece_count > 0;
     if (threshold >= 0.0 && !all_outside()) sides.ask(body, walk);
   } while (walk.depth > 0);
   if (threshold >= 0.0 &&
       ((!all_outside() && sides.inside(*this, target_from_body)) || target_inside(body, target_from_body)))
-    return {true, 0.0};
-  return {false, pieces_free ? 0.0 : std::max(0.0, static_cast<double>(walk.clearance))};
+    return {true, 0.0, looks};
+  return {false, pieces_free ? 0.0 : std::max(0.0, static_cast<double>(walk.clearance)), looks};
 }
 
 bool TargetContact::target_inside(const Body& body, const Pose& target_from_body) const {
@@ -174,7 +177,7 @@ std::uint32_t TargetContact::near_waypoints(const BodyPath& path, std::size_t bo
 }
 
 std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, const Pose& target_from_base,
-                                       const Asked& asked, std::size_t from, std::size_t to) const {
+                                       const Asked& asked, std::size_t from, std::size_t to, Effort* effort) const {
   const std::size_t none = to;
   if (from >= to) return none;
   if (asked.threshold < BodyPath::region_margin) {
@@ -189,6 +192,7 @@ std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, c
       const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(near));
       if (path.travelled(i, body) < free_until) continue;
       const Reach at = reach(bodies_->body(body), product(target_from_base, path.base_from_body(i, body)), asked);
+      if (effort) effort->looks += at.looks;
       if (at.hit) return i;
       free_until = path.travelled(i, body) + at.clearance;
     }
@@ -197,11 +201,12 @@ std::size_t TargetContact::first_reach(const BodyPath& path, std::size_t body, c
 }
 
 std::optional<std::size_t> TargetContact::first_reach(const BodyPath& path, const Pose& base_from_target,
-                                                      const Asked& asked, std::size_t from) const {
+                                                      const Asked& asked, std::size_t from, Effort* effort) const {
   const Pose target_from_base = inverse(base_from_target);
   std::size_t first = path.size();
+  if (effort) ++effort->looks;
   for (std::size_t body = 0; body < bodies_->size(); ++body)
-    first = std::min(first, first_reach(path, body, target_from_base, asked, from, first));
+    first = std::min(first, first_reach(path, body, target_from_base, asked, from, first, effort));
   return first == path.size() ? std::nullopt : std::optional(first);
 }
 
@@ -210,8 +215,8 @@ std::optional<std::size_t> TargetContact::first_contact(const BodyPath& path, co
 }
 
 std::optional<std::size_t> TargetContact::first_within(const BodyPath& path, const Pose& base_from_target,
-                                                       double radius, std::size_t from) const {
-  return first_reach(path, base_from_target, usual(radius), from);
+                                                       double radius, std::size_t from, Effort* effort) const {
+  return first_reach(path, base_from_target, usual(radius), from, effort);
 }
 
 bool TargetContact::touches(const BodyPath& path, std::size_t waypoint, const Pose& base_from_target) const {
@@ -227,8 +232,8 @@ bool TargetContact::within(const BodyPath& path, std::size_t waypoint, const Pos
 }
 
 std::optional<std::size_t> TargetContact::first_certain_contact(const BodyPath& path, const Pose& base_from_target,
-                                                                double radius, std::size_t from) const {
-  return first_reach(path, base_from_target, usual(-radius), from);
+                                                                double radius, std::size_t from, Effort* effort) const {
+  return first_reach(path, base_from_target, usual(-radius), from, effort);
 }
 
 std::size_t TargetContact::first_certain_contact(const BodyPath& path, std::size_t body, const Pose& base_from_target,

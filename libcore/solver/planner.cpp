@@ -23,11 +23,14 @@ constexpr double farther = 6.0;           // times as far, each time that this w
 constexpr double telling = 0.6;           // of the bits per cost that the best motion tells, once something was met
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
+constexpr double in_the_way = 0.1;        // probability of meeting the target on the way, above which others are tried
 constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then;
 constexpr double least_sample = 0.5;      // and so many at least;
 constexpr double least_after = 0.25;      // and once something was met
 constexpr double aim = 0.7;               // of a budget in seconds, to weigh the motions where planning starts
 constexpr double in_time = 0.95;          // of a budget in seconds: what is in hand then still has to be finished
+constexpr double with_way = 0.88;         // the same where the ways to motions are weighed after it,
+constexpr double latest_way = 0.97;       // until then
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
 bool has_met_something(const std::vector<belief::Trace>& history) {
@@ -67,7 +70,8 @@ Planner::~Planner() = default;
 
 Answer Planner::query(const belief::Belief& belief) {
   cancelled_.store(false, std::memory_order_relaxed);
-  support::Deadline deadline(in_time * options_.budget_seconds,
+  const bool weighs_ways = is_bounded() && has_met_something(belief.history());
+  support::Deadline deadline((weighs_ways ? with_way : in_time) * options_.budget_seconds,
                              options_.budget_expansions == 0 ? UINT64_MAX : options_.budget_expansions, &cancelled_);
   alternatives_.clear();
   if (policy_) policy_->verdicts.clear();
@@ -312,12 +316,12 @@ std::vector<Touch> Planner::touched_in_vain(const belief::Belief& belief) const 
 }
 
 /// A little of the way it came, from what it touched: any other may lead along it. More of it each time that this was
-/// not enough to get out.
-motion::JointPath Planner::way_off(const belief::Belief& belief) const {
+/// not enough to get out, `halts`.
+motion::JointPath Planner::way_off(const belief::Belief& belief, int halts) const {
   const std::vector<belief::Trace>& history = belief.history();
-  if (!has_met_something(history) || (!history.back().contact && standing_.halts == 0)) return {};
+  if (!has_met_something(history) || (!history.back().contact && halts == 0)) return {};
   const action::Task& task = *model_->task;
-  const double enough = back_off * std::pow(farther, standing_.halts);
+  const double enough = back_off * std::pow(farther, halts);
   motion::JointPath way = belief.way_back();
   double cost = 0.0;
   std::size_t waypoints = 1;
@@ -334,19 +338,48 @@ double full_cost(const Choice& choice) {
   return any.cost + cost_to.back() - cost_to[std::min(any.waypoint, cost_to.size() - 1)];
 }
 
+/// Probability of meeting something before the motion proper, of a choice that was weighed with the way to it.
+double met_on_the_way(const Choice& choice, const action::Action& made) {
+  double sum = 0.0;
+  for (const Outcome& outcome : choice.outcomes)
+    if (outcome.waypoint <= made.lead) sum += outcome.probability;
+  return sum;
+}
+
+/// The way to a choice's motion and the motion, weighed as that turned out. Where the target is likely to be in the
+/// way, by the one of several ways on which the least is spent: farther and farther back the way the robot came.
+std::optional<Planner::Realised> Planner::realised(const belief::Belief& belief, const BeliefState& state,
+                                                   const Choice& choice, const support::Deadline& deadline) const {
+  const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
+  const auto is_late = [&] { return deadline.elapsed_seconds() > latest_way * options_.budget_seconds; };
+  const std::size_t all = belief.way_back().size();
+  std::optional<Realised> best;
+  for (int halts = standing_.halts; !best || !is_late(); ++halts) {
+    const motion::JointPath way = way_off(belief, halts);
+    auto made = library_->realise(belief.configuration(), *choice.motion, unlimited, way);
+    if (!made) break;
+    const double more = made->full_cost - full_cost(choice);
+    Choice weighed = is_late() ? charged(choice, more) : state.realised(choice, *made, more);
+    const bool is_free = weighed.motion == choice.motion || met_on_the_way(weighed, *made) <= in_the_way;
+    if (!best || weighed.expected_total() < best->choice.expected_total())
+      best = Realised{std::move(*made), std::move(weighed), more};
+    if (is_free || way.size() >= all) break;
+  }
+  return best;
+}
+
 /// The best motion at a node, made executable; the next best where the robot can't get to its start, or did so without
 /// avail. What the stage holds back is better than nothing.
 Answer Planner::act(const belief::Belief& belief, int node, const support::Deadline& deadline) {
   Search& search = policy_->search;
   const std::vector<Choice>& choices = search.choices(node);
-  std::vector<std::optional<action::Action>> realised(choices.size());
+  std::vector<std::optional<action::Action>> reweighed(choices.size());
   std::vector<bool> banned(choices.size(), false);
   std::vector<Verdict> verdicts(choices.size(), Verdict::passed_over);
   const auto ban = [&](std::size_t choice, Verdict verdict) {
     banned[choice] = true;
     verdicts[choice] = verdict;
   };
-  const motion::JointPath way_back = way_off(belief);
   const std::vector<Touch> touches = touched_in_vain(belief);
   const bool does_not_err = !belief.sensing().errs();
   const bool feels = has_met_something(belief.history());
@@ -370,16 +403,16 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
   };
   for (auto choice = next(); choice; choice = next()) {
     if (deadline.cancelled()) return {Answer::Kind::cancelled, nullptr};
-    const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
-    auto made = std::move(realised[*choice]);
-    const bool is_charged = made.has_value();
-    if (!made) made = library_->realise(belief.configuration(), *choices[*choice].motion, unlimited, way_back);
+    auto made = std::move(reweighed[*choice]);
+    const bool is_reweighed = made.has_value();
+    std::optional<Realised> found;
+    if (!made && (found = realised(belief, search.state(node), choices[*choice], deadline)))
+      made = std::move(found->action);
     if (made &&
         std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
-      const double more = made->full_cost - full_cost(choices[*choice]);
-      if (!is_charged && more > least_charge) {
-        search.charge(node, *choice, more);
-        realised[*choice] = std::move(made);
+      if (!is_reweighed && (found->more > least_charge || found->choice.motion != choices[*choice].motion)) {
+        search.reweigh(node, *choice, std::move(found->choice));
+        reweighed[*choice] = std::move(made);
         continue;
       }
       const std::vector<bool> tells_too_little = left_out();

@@ -57,9 +57,17 @@ class Planner {
   Answer act(const belief::Belief& belief, int node, const support::Deadline& deadline);
   Answer hand_out(const belief::Belief& belief, int node, std::size_t choice, action::Action made);
   enum class Stage { all, probes, anchored };  ///< what is tried
+  /// A motion made executable, weighed as it turned out, and what it costs more than was thought.
+  struct Realised {
+    action::Action action;
+    Choice choice;
+    double more = 0.0;
+  };
   Stage stage() const;
   const Choice& chosen() const;
-  motion::JointPath way_off(const belief::Belief& belief) const;
+  motion::JointPath way_off(const belief::Belief& belief, int halts) const;
+  std::optional<Realised> realised(const belief::Belief& belief, const BeliefState& state, const Choice& choice,
+                                   const support::Deadline& deadline) const;
   bool is_known(const action::Motion& motion) const;
   bool is_idle(const Choice& choice) const;
   bool is_made_already(const action::Motion& motion) const;

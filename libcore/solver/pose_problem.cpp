@@ -74,6 +74,17 @@ class PoseState : public BeliefState {
     return result;
   }
 
+  /// All the way as one motion, once something was met: the target may be in the way then.
+  Choice realised(const Choice& choice, const action::Action& made, double more) const override {
+    if (!problem_->policy_ || problem_->nothing_met_ || made.lead == 0) return charged(choice, more);
+    Motion whole;
+    whole.kind = made.kind;
+    whole.anchored = choice.motion->anchored;
+    whole.path = made.path;
+    whole.supposed_target = made.supposed_target;
+    return weigh(action::finished(*problem_->task_, std::move(whole)));
+  }
+
   BeliefStatePtr successor(const Choice& choice, const Outcome& outcome) const override {
     Bitset left = problem_->predictions_->subset(choice.motion, members_, outcome.waypoint, outcome.last);
     const auto& path = choice.motion->path;
@@ -137,12 +148,7 @@ class PoseState : public BeliefState {
   void weigh_carefully(std::vector<Choice>& choices, const support::Deadline& deadline) const {
     if (!choices.empty()) limit_to(deadline);
     std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-      double cost = choices[i].expected_cost();
-      for (const Outcome& outcome : choices[i].outcomes)
-        cost += outcome.probability * outcome.heuristic[static_cast<int>(ValueType::inadmissible)];
-      order.emplace_back(cost, i);
-    }
+    for (std::size_t i = 0; i < choices.size(); ++i) order.emplace_back(choices[i].expected_total(), i);
     std::sort(order.begin(), order.end());
     order.resize(std::min(order.size(), weighed_carefully));
     for (const auto& [cost, i] : order)
@@ -177,9 +183,10 @@ class PoseState : public BeliefState {
 
   Choice weigh(const MotionPtr& motion) const {
     const auto total = static_cast<double>(members_.count());
-    const double lead = motion->anchored ? action::transit_cost(*problem_->task_, problem_->task_->base_from_tool(q_),
-                                                                motion->base_from_start)
-                                         : 0.0;
+    const bool is_elsewhere = motion->anchored && motion->path.front() != q_;
+    const double lead = is_elsewhere ? action::transit_cost(*problem_->task_, problem_->task_->base_from_tool(q_),
+                                                            motion->base_from_start)
+                                     : 0.0;
     Choice choice{motion, {}};
     const std::size_t least = problem_->predictions_->least_told_apart(motion, members_, problem_->dimensions());
     for (const auto& [waypoint, last, group, expected] : problem_->predictions_->split(motion, members_, least)) {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "action/motion.hpp"
+#include "action/library.hpp"
 #include "support/bitset.hpp"
 #include "support/deadline.hpp"
 
@@ -34,11 +34,15 @@ struct Outcome {
 struct Choice {
   action::MotionPtr motion;
   std::vector<Outcome> outcomes;
-  double expected_cost() const;  ///< C(b, a)
+  double expected_cost() const;   ///< C(b, a)
+  double expected_total() const;  ///< Q(b, a) by the successors' second values
   double contact_probability() const;
   double goal_probability() const;
   double information() const;  ///< expected bits by which the belief gets smaller
 };
+
+/// The same, were its motion to cost so much `more`, whatever comes of it.
+Choice charged(Choice choice, double more);
 
 /// What a bit is worth to h_inad: a half more than what the motion with the best rate of expected bits to expected cost
 /// pays for one, so that motion is worth making; at least `least`.
@@ -64,6 +68,10 @@ class BeliefState {
   /// least the first, if the deadline is spent before all are weighed. Where planning starts, all, or some of every
   /// kind at least, unless it is cancelled: the best of a few that are alike may be far from any good.
   virtual std::vector<Choice> choices(const support::Deadline& deadline) const = 0;
+
+  /// A choice as its motion turned out, with the way to where that begins: it costs so much `more`, and where the
+  /// belief can tell, something may be met on the way too.
+  virtual Choice realised(const Choice& choice, const action::Action& made, double more) const;
 
   /// The belief after an outcome that is not the goal.
   virtual std::shared_ptr<const BeliefState> successor(const Choice& choice, const Outcome& outcome) const = 0;

@@ -18,6 +18,22 @@ std::size_t most_likely(const Choice& choice) {
 
 }  // namespace
 
+double Choice::expected_total() const {
+  double sum = expected_cost();
+  for (const Outcome& outcome : outcomes)
+    sum += outcome.probability * outcome.heuristic[static_cast<int>(ValueType::inadmissible)];
+  return sum;
+}
+
+Choice charged(Choice choice, double more) {
+  for (Outcome& outcome : choice.outcomes) outcome.cost += more;
+  return choice;
+}
+
+Choice BeliefState::realised(const Choice& choice, const action::Action& /*made*/, double more) const {
+  return charged(choice, more);
+}
+
 double Choice::expected_cost() const {
   double sum = 0.0;
   for (const Outcome& outcome : outcomes) sum += outcome.probability * outcome.cost;
@@ -200,8 +216,9 @@ std::optional<std::size_t> Search::best(int node, const std::vector<bool>& banne
   return best_by(node, executed_by(), banned);
 }
 
-void Search::charge(int node, std::size_t choice, double more) {
-  for (Outcome& outcome : nodes_[node].choices[choice].outcomes) outcome.cost += more;
+void Search::reweigh(int node, std::size_t choice, Choice weighed) {
+  nodes_[node].children[choice].assign(weighed.outcomes.size(), -1);
+  nodes_[node].choices[choice] = std::move(weighed);
 }
 
 int Search::follow(int index, std::size_t choice, std::size_t outcome) {

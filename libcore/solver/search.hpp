@@ -42,8 +42,8 @@ class Search {
   /// The best motion at an expanded belief, leaving out the banned ones; none if no motion is left. A choice's index.
   std::optional<std::size_t> best(int node, const std::vector<bool>& banned = {}) const;
 
-  /// What a motion costs more at a belief than was thought, whatever comes of it.
-  void charge(int node, std::size_t choice, double more);
+  /// Puts a motion at a belief as it turned out in the place of what was thought of it.
+  void reweigh(int node, std::size_t choice, Choice weighed);
 
   bool expanded(int node) const { return nodes_[node].expanded; }
   const BeliefState& state(int node) const { return *nodes_[node].state; }

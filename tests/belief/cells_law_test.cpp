@@ -172,7 +172,7 @@ TEST(Cells, ThatAreFineAreNotSplitAndTheOthersAsFarAsThereIsRoom) {
 }
 
 TEST(Cells, SplitInSeveralGoesEndAsThoseThatAreSplitInOneAndHoldTheTruthAllAlong) {
-  constexpr std::size_t room = 100000, most_tests = 400;
+  constexpr std::size_t room = 100000, a_few = 256;
   constexpr double fine_radius = 0.0015;
   int goes = 0, compared = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
@@ -180,7 +180,7 @@ TEST(Cells, SplitInSeveralGoesEndAsThoseThatAreSplitInOneAndHoldTheTruthAllAlong
       const std::vector<belief::Trace>& history = belief.history();
       const auto traces = belief::believed(history);
       CellBelief at_once(task(), {.most = room});
-      CellBelief bit_by_bit(task(), {.most = room, .most_trace_tests = most_tests});
+      CellBelief bit_by_bit(task(), {.most = room, .most_looks = 1});
       if (!at_once.update(task(), traces) || at_once.grid()) return;
       ASSERT_TRUE(bit_by_bit.update(task(), traces));
       const auto is_fine = [&](const Cell& cell) { return at_once.radius(cell) <= fine_radius; };
@@ -189,7 +189,7 @@ TEST(Cells, SplitInSeveralGoesEndAsThoseThatAreSplitInOneAndHoldTheTruthAllAlong
       for (; !bit_by_bit.all_of(is_fine); ++goes) {
         const std::size_t before = bit_by_bit.size();
         ASSERT_TRUE(bit_by_bit.refine(task(), history, is_fine));
-        ASSERT_LE(bit_by_bit.size(), before + most_tests / history.size() / 2 + 1);
+        ASSERT_LE(bit_by_bit.size(), before + a_few);
         ASSERT_GE(holding(bit_by_bit, truth), 1);
       }
       const auto centres = [](const CellBelief& cells) {

@@ -185,6 +185,31 @@ TEST(BallTree, ACoreIsADepthInTheSolidOrADistanceToTheSurface) {
     }
 }
 
+/// What a belief does ends by what its answers took: on no machine sooner than on another.
+TEST_P(KernelLaw, AnswersTakeTheEffortOfThePortableOnes) {
+  const Scene& scene = scene_of(0);
+  const auto bodies = std::make_shared<contact::RobotBodies>(scene.arm.model, scene.arm.tip, pairings()[0].tool.mesh());
+  const auto contact_by = [&](const kernel::Kernel& asked) {
+    return TargetContact(bodies, scene.target.mesh(), scene.margin, asked);
+  };
+  const TargetContact ours = contact_by(kernel()), portable = contact_by(kernel::portable);
+  std::uint64_t looks = 0;
+  for (int m = 0; m < 40; ++m) {
+    const Motion motion(scene, random_waypoints(rng));
+    const Pose pose = m % 2 == 0 ? pose_near_touching(scene, motion, rng) : pose_anywhere(scene, motion, rng);
+    for (const double radius : {0.0005, 0.003}) {
+      contact::Effort effort, theirs;
+      EXPECT_EQ(ours.first_within(motion.path, pose, radius, 1, &effort),
+                portable.first_within(motion.path, pose, radius, 1, &theirs));
+      EXPECT_EQ(ours.first_certain_contact(motion.path, pose, radius, 1, &effort),
+                portable.first_certain_contact(motion.path, pose, radius, 1, &theirs));
+      EXPECT_EQ(effort.looks, theirs.looks);
+      looks += effort.looks;
+    }
+  }
+  EXPECT_GT(looks, 500u);
+}
+
 INSTANTIATE_TEST_SUITE_P(, KernelLaw, testing::ValuesIn(supported_kernels()),
                          [](const auto& kernel) { return std::string(kernel.param->name); });
 
