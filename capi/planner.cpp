@@ -73,7 +73,8 @@ geometry::Vector3 position_at(const action::Motion& motion, std::size_t waypoint
 
 tactus_alternative alternative_of(const solver::Alternative& from) {
   const action::Motion& motion = *from.choice.motion;
-  const geometry::Vector3 start = position_at(motion, 0), end = position_at(motion, motion.path.size() - 1);
+  const geometry::Vector3 start = motion.base_from_start.translation();
+  const geometry::Vector3 end = position_at(motion, motion.path.size() - 1);
   tactus_alternative alternative{};
   alternative.kind = static_cast<tactus_action_kind>(motion.kind);
   alternative.verdict = static_cast<tactus_verdict>(from.verdict);

@@ -19,7 +19,7 @@ constexpr int patience = 3;              // queries in a stage in which the beli
 constexpr int most_idle = 6;             // queries in a row whose actions were not to tell anything
 constexpr int stages = 3;
 constexpr double back_off = 0.01;         // of the way it came, in units of cost, from what it touched
-constexpr double farther = 6.0;           // times as far, each time that this was not enough
+constexpr double farther = 3.0;           // times as far, each time that this was not enough
 constexpr double telling = 0.6;           // of the bits per cost that the best motion tells, once something was met
 constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
@@ -30,7 +30,7 @@ constexpr double least_after = 0.25;      // and once something was met
 constexpr double aim = 0.7;               // of a budget in seconds, to weigh the motions where planning starts
 constexpr double in_time = 0.95;          // of a budget in seconds: what is in hand then still has to be finished
 constexpr double with_way = 0.88;         // the same where the ways to motions are weighed after it,
-constexpr double latest_way = 0.97;       // until then
+constexpr double to_weigh_ways = 0.94;    // and the same for those
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
 bool has_met_something(const std::vector<belief::Trace>& history) {
@@ -73,6 +73,7 @@ Answer Planner::query(const belief::Belief& belief) {
   const bool weighs_ways = is_bounded() && has_met_something(belief.history());
   support::Deadline deadline((weighs_ways ? with_way : in_time) * options_.budget_seconds,
                              options_.budget_expansions == 0 ? UINT64_MAX : options_.budget_expansions, &cancelled_);
+  const support::Deadline ways(to_weigh_ways * options_.budget_seconds, UINT64_MAX, &cancelled_);
   alternatives_.clear();
   if (policy_) policy_->verdicts.clear();
   statistics_.from_policy = false;
@@ -85,13 +86,13 @@ Answer Planner::query(const belief::Belief& belief) {
   note_fruitless(belief);
   if (const auto node = followed(belief)) {
     statistics_.from_policy = true;
-    Answer answer = unless_cancelled([&] { return act(belief, *node, deadline); });
+    Answer answer = unless_cancelled([&] { return act(belief, *node, ways); });
     if (answer.action || answer.kind == Answer::Kind::cancelled) return answer;
     statistics_.from_policy = false;
   }
   Answer answer = unless_cancelled([&] {
     plan(belief, deadline);
-    return act(belief, Search::start, deadline);
+    return act(belief, Search::start, ways);
   });
   statistics_.expansions = deadline.expansions();
   statistics_.seconds = deadline.elapsed_seconds();
@@ -351,15 +352,14 @@ double met_on_the_way(const Choice& choice, const action::Action& made) {
 std::optional<Planner::Realised> Planner::realised(const belief::Belief& belief, const BeliefState& state,
                                                    const Choice& choice, const support::Deadline& deadline) const {
   const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
-  const auto is_late = [&] { return deadline.elapsed_seconds() > latest_way * options_.budget_seconds; };
   const std::size_t all = belief.way_back().size();
   std::optional<Realised> best;
-  for (int halts = standing_.halts; !best || !is_late(); ++halts) {
+  for (int halts = standing_.halts; !best || !deadline.spent(); ++halts) {
     const motion::JointPath way = way_off(belief, halts);
     auto made = library_->realise(belief.configuration(), *choice.motion, unlimited, way);
     if (!made) break;
     const double more = made->full_cost - full_cost(choice);
-    Choice weighed = is_late() ? charged(choice, more) : state.realised(choice, *made, more);
+    Choice weighed = state.realised(choice, *made, more, deadline);
     const bool is_free = weighed.motion == choice.motion || met_on_the_way(weighed, *made) <= in_the_way;
     if (!best || weighed.expected_total() < best->choice.expected_total())
       best = Realised{std::move(*made), std::move(weighed), more};

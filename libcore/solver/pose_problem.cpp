@@ -75,14 +75,25 @@ class PoseState : public BeliefState {
   }
 
   /// All the way as one motion, once something was met: the target may be in the way then.
-  Choice realised(const Choice& choice, const action::Action& made, double more) const override {
-    if (!problem_->policy_ || problem_->nothing_met_ || made.lead == 0) return charged(choice, more);
+  Choice realised(const Choice& choice, const action::Action& made, double more,
+                  const support::Deadline& deadline) const override {
+    if (!problem_->policy_ || problem_->nothing_met_ || made.lead == 0 || deadline.spent())
+      return charged(choice, more);
     Motion whole;
     whole.kind = made.kind;
     whole.anchored = choice.motion->anchored;
     whole.path = made.path;
     whole.supposed_target = made.supposed_target;
-    return weigh(action::finished(*problem_->task_, std::move(whole)));
+    const auto finished = std::make_shared<Motion>(*action::finished(*problem_->task_, std::move(whole)));
+    finished->base_from_start = choice.motion->base_from_start;
+    limit_to(deadline);
+    std::optional<Choice> weighed;
+    try {
+      weighed = weigh(finished);
+    } catch (const support::OutOfTime&) {
+    }
+    problem_->predictions_->time_limit().lift();
+    return weighed ? *weighed : charged(choice, more);
   }
 
   BeliefStatePtr successor(const Choice& choice, const Outcome& outcome) const override {

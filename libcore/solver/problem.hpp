@@ -70,8 +70,9 @@ class BeliefState {
   virtual std::vector<Choice> choices(const support::Deadline& deadline) const = 0;
 
   /// A choice as its motion turned out, with the way to where that begins: it costs so much `more`, and where the
-  /// belief can tell, something may be met on the way too.
-  virtual Choice realised(const Choice& choice, const action::Action& made, double more) const;
+  /// belief can tell, by the deadline or a little later, something may be met on the way too.
+  virtual Choice realised(const Choice& choice, const action::Action& made, double more,
+                          const support::Deadline& deadline) const;
 
   /// The belief after an outcome that is not the goal.
   virtual std::shared_ptr<const BeliefState> successor(const Choice& choice, const Outcome& outcome) const = 0;

@@ -30,7 +30,8 @@ Choice charged(Choice choice, double more) {
   return choice;
 }
 
-Choice BeliefState::realised(const Choice& choice, const action::Action& /*made*/, double more) const {
+Choice BeliefState::realised(const Choice& choice, const action::Action& /*made*/, double more,
+                             const support::Deadline& /*deadline*/) const {
   return charged(choice, more);
 }
 

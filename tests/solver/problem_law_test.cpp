@@ -60,14 +60,17 @@ belief::Belief random_belief(Kind kind, Rng& rng) {
 /// Of a belief of cells.
 std::vector<Pose> random_poses(Rng& rng) { return belief::poses_of(random_belief(Kind::particles, rng).draw(40, rng)); }
 
-/// At a belief that is so many poses, of a robot that stands at the scene's start, and has met something or nothing.
-std::vector<Choice> weighed_at_start(const std::vector<Pose>& poses, SecondValue second,
-                                     const support::Deadline& deadline, bool nothing_met = false) {
+/// So many poses, and a robot that has met something or nothing.
+BeliefStatePtr at(const JointVector& q, const std::vector<Pose>& poses, SecondValue second, bool nothing_met = false) {
   return std::make_shared<solver::PoseProblem>(task(), std::make_shared<action::ActionLibrary>(*task()),
                                                std::make_shared<solver::Predictions>(task(), poses), 10.0, 0.035,
                                                second, nothing_met)
-      ->start(task()->scene().start)
-      ->choices(deadline);
+      ->start(q);
+}
+
+std::vector<Choice> weighed_at_start(const std::vector<Pose>& poses, SecondValue second,
+                                     const support::Deadline& deadline, bool nothing_met = false) {
+  return at(task()->scene().start, poses, second, nothing_met)->choices(deadline);
 }
 
 Tracked on_poses(Rng& rng) {
@@ -265,6 +268,57 @@ TEST(Choices, FirstContactsAreThoseOfThePlainOracle) {
     }
   });
   EXPECT_GT(touched, 20);
+}
+
+/// With bounds, once something was met: what may be met on the way to where a motion begins is an outcome too.
+TEST(Choices, AsTheyTurnOutAreSplitByWhereEachPoseIsFirstTouchedOnAllTheWay) {
+  const action::ActionLibrary library(*task());
+  Rng rng(18);
+  int checked = 0, met_on_the_way = 0;
+  for (int i = 0; i < 10; ++i) {
+    const belief::Belief belief = random_belief(Kind::particles, rng);
+    const JointVector& q = belief.configuration();
+    const std::vector<Pose> poses = belief::poses_of(belief.draw(40, rng));
+    const BeliefStatePtr state = at(q, poses, SecondValue::upper_bound);
+    for (const Choice& choice : state->choices(support::Deadline::unlimited())) {
+      const auto made = library.realise(q, *choice.motion, support::Deadline::unlimited());
+      if (!made || made->lead == 0 || rng.below(3) > 0) continue;
+      const Choice whole = state->realised(choice, *made, 0.0, support::Deadline::unlimited());
+      ASSERT_EQ(whole.motion->path, made->path);
+      ASSERT_EQ(whole.motion->base_from_start.matrix(), choice.motion->base_from_start.matrix());
+      double total = 0.0;
+      for (const Outcome& outcome : whole.outcomes) {
+        const auto held = static_cast<double>(touched_at(*whole.motion, poses, outcome).size());
+        ASSERT_NEAR(outcome.probability, held / static_cast<double>(poses.size()), 1e-9);
+        const std::size_t reached = std::min(outcome.waypoint, made->path.size() - 1);
+        ASSERT_NEAR(outcome.cost, 0.005 + whole.motion->cost_to[reached], 1e-9);
+        met_on_the_way += outcome.waypoint <= made->lead;
+        total += outcome.probability;
+      }
+      ASSERT_NEAR(total, 1.0, 1e-9);
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 20);
+  EXPECT_GT(met_on_the_way, 0);
+}
+
+/// Before, and by solvers without bounds, it is charged for alone.
+TEST(Choices, AsTheyTurnOutCostMoreOfAllOutcomesWhereWaysAreNotWeighed) {
+  constexpr double more = 0.25;
+  Rng rng(19);
+  const std::vector<Pose> poses = random_poses(rng);
+  for (const BeliefStatePtr& state : {at(task()->scene().start, poses, SecondValue::greedy),
+                                      at(task()->scene().start, poses, SecondValue::upper_bound, true)}) {
+    const Choice choice = state->choices(support::Deadline::unlimited()).back();
+    action::Action made;
+    made.lead = 3;
+    const Choice charged = state->realised(choice, made, more, support::Deadline::unlimited());
+    ASSERT_EQ(charged.motion, choice.motion);
+    ASSERT_EQ(charged.outcomes.size(), choice.outcomes.size());
+    for (std::size_t z = 0; z < choice.outcomes.size(); ++z)
+      EXPECT_DOUBLE_EQ(charged.outcomes[z].cost, choice.outcomes[z].cost + more);
+  }
 }
 
 TEST(Successors, HoldEachPoseOnceAndStandAtTheLastFreeWaypoint) {
