@@ -218,8 +218,9 @@ std::optional<std::size_t> Search::best(int node, const std::vector<bool>& banne
 }
 
 void Search::reweigh(int node, std::size_t choice, Choice weighed) {
-  nodes_[node].children[choice].assign(weighed.outcomes.size(), -1);
-  nodes_[node].choices[choice] = std::move(weighed);
+  Choice& known = nodes_[node].choices[choice];
+  if (weighed.motion != known.motion) nodes_[node].children[choice].assign(weighed.outcomes.size(), -1);
+  known = std::move(weighed);
 }
 
 int Search::follow(int index, std::size_t choice, std::size_t outcome) {

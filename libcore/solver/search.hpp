@@ -42,7 +42,8 @@ class Search {
   /// The best motion at an expanded belief, leaving out the banned ones; none if no motion is left. A choice's index.
   std::optional<std::size_t> best(int node, const std::vector<bool>& banned = {}) const;
 
-  /// Puts a motion at a belief as it turned out in the place of what was thought of it.
+  /// Puts a motion at a belief as it turned out in the place of what was thought of it. What is known of the beliefs
+  /// that follow is kept unless it is another motion; else the outcomes must be the same.
   void reweigh(int node, std::size_t choice, Choice weighed);
 
   bool expanded(int node) const { return nodes_[node].expanded; }

@@ -99,6 +99,37 @@ TEST(Search, AdmissibleValuesNeverExceedTheOptimum) {
   }
 }
 
+TEST(Search, KeepsWhatFollowsAMotionThatTurnsOutDearerButNotWhatFollowedAnother) {
+  constexpr double more = 0.3;
+  Rng rng(21);
+  int followed = 0;
+  for (int i = 0; i < 10; ++i) {
+    Search tried = search(guessed(rng, 4), 0.5);
+    Deadline deadline = expansions(30);
+    tried.run(deadline);
+    for (std::size_t a = 0; a < tried.choices(Search::start).size(); ++a) {
+      const auto children = [&] {
+        std::vector<int> found;
+        for (std::size_t z = 0; z < tried.choices(Search::start)[a].outcomes.size(); ++z)
+          found.push_back(tried.child(Search::start, a, z));
+        return found;
+      };
+      const std::vector<int> before = children();
+      const double q = tried.q_value(Search::start, a, ValueType::inadmissible);
+      tried.reweigh(Search::start, a, solver::charged(tried.choices(Search::start)[a], more));
+      EXPECT_NEAR(tried.q_value(Search::start, a, ValueType::inadmissible), q + more, exact);
+      EXPECT_EQ(children(), before);
+      followed += std::count_if(before.begin(), before.end(), [](int child) { return child >= 0; }) > 0;
+
+      solver::Choice another = tried.choices(Search::start)[a];
+      another.motion = std::make_shared<const action::Motion>();
+      tried.reweigh(Search::start, a, another);
+      for (const int child : children()) EXPECT_EQ(child, -1);
+    }
+  }
+  EXPECT_GT(followed, 5);
+}
+
 TEST(Search, ValuesOnlyRiseFromAConsistentHeuristic) {
   Rng rng(2);
   for (int i = 0; i < 20; ++i) {
