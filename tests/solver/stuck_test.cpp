@@ -121,7 +121,7 @@ double cost_of(const motion::JointPath& way) {
 /// knows: so from a contact it goes back a little, and farther each time it is halted, whether or not it turns about
 /// and makes small moves there in between.
 TEST(Stuck, GoesBackAsItCameBeforeItSetsOutForAnythingElse) {
-  constexpr double back_off = 0.01, farther = 6.0;
+  constexpr double back_off = 0.01, farther = 3.0;
   int stuck = 0;
   for (const std::uint64_t seed : {10u, 11u, 12u, 13u, 14u, 15u}) {
     const bool small_motions_are_free = seed > 12;
