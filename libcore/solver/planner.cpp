@@ -318,18 +318,17 @@ std::vector<Touch> Planner::touched_in_vain(const belief::Belief& belief) const 
 
 /// A little of the way it came, from what it touched: any other may lead along it. More of it each time that this was
 /// not enough to get out, `halts`.
-motion::JointPath Planner::way_off(const belief::Belief& belief, int halts) const {
+motion::JointPath Planner::way_off(const belief::Belief& belief, const motion::JointPath& way_back, int halts) const {
   const std::vector<belief::Trace>& history = belief.history();
   if (!has_met_something(history) || (!history.back().contact && halts == 0)) return {};
   const action::Task& task = *model_->task;
   const double enough = back_off * std::pow(farther, halts);
-  motion::JointPath way = belief.way_back();
   double cost = 0.0;
   std::size_t waypoints = 1;
-  for (; waypoints < way.size() && cost < enough; ++waypoints)
-    cost += task.cost(
-        motion::tool_travel(*task.scene().robot, task.scene().tool_link, {way[waypoints - 1], way[waypoints]}));
-  return {way.begin(), way.begin() + static_cast<std::ptrdiff_t>(waypoints)};
+  for (; waypoints < way_back.size() && cost < enough; ++waypoints)
+    cost += task.cost(motion::tool_travel(*task.scene().robot, task.scene().tool_link,
+                                          {way_back[waypoints - 1], way_back[waypoints]}));
+  return {way_back.begin(), way_back.begin() + static_cast<std::ptrdiff_t>(waypoints)};
 }
 
 /// What a motion was thought to cost all the way, with the way to its start, however far its outcomes go.
@@ -350,20 +349,22 @@ double met_on_the_way(const Choice& choice, const action::Action& made) {
 /// The way to a choice's motion and the motion, weighed as that turned out. Where the target is likely to be in the
 /// way, by the one of several ways on which the least is spent: farther and farther back the way the robot came.
 std::optional<Planner::Realised> Planner::realised(const belief::Belief& belief, const BeliefState& state,
-                                                   const Choice& choice, const support::Deadline& deadline) const {
+                                                   const Choice& choice, const motion::JointPath& way_back,
+                                                   const support::Deadline& deadline) const {
   const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
-  const std::size_t all = belief.way_back().size();
   std::optional<Realised> best;
   for (int halts = standing_.halts; !best || !deadline.spent(); ++halts) {
-    const motion::JointPath way = way_off(belief, halts);
+    const motion::JointPath way = way_off(belief, way_back, halts);
     auto made = library_->realise(belief.configuration(), *choice.motion, unlimited, way);
     if (!made) break;
     const double more = made->full_cost - full_cost(choice);
     Choice weighed = state.realised(choice, *made, more, deadline);
-    const bool is_free = weighed.motion == choice.motion || met_on_the_way(weighed, *made) <= in_the_way;
+    const bool is_weighed = weighed.motion != choice.motion;
+    if (best && !is_weighed) break;
+    const bool is_free = !is_weighed || met_on_the_way(weighed, *made) <= in_the_way;
     if (!best || weighed.expected_total() < best->choice.expected_total())
       best = Realised{std::move(*made), std::move(weighed), more};
-    if (is_free || way.size() >= all) break;
+    if (is_free || way.size() >= way_back.size()) break;
   }
   return best;
 }
@@ -380,6 +381,7 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
     banned[choice] = true;
     verdicts[choice] = verdict;
   };
+  const motion::JointPath way_back = belief.way_back();
   const std::vector<Touch> touches = touched_in_vain(belief);
   const bool does_not_err = !belief.sensing().errs();
   const bool feels = has_met_something(belief.history());
@@ -406,7 +408,7 @@ Answer Planner::act(const belief::Belief& belief, int node, const support::Deadl
     auto made = std::move(reweighed[*choice]);
     const bool is_reweighed = made.has_value();
     std::optional<Realised> found;
-    if (!made && (found = realised(belief, search.state(node), choices[*choice], deadline)))
+    if (!made && (found = realised(belief, search.state(node), choices[*choice], way_back, deadline)))
       made = std::move(found->action);
     if (made &&
         std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {

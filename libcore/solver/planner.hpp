@@ -65,9 +65,9 @@ class Planner {
   };
   Stage stage() const;
   const Choice& chosen() const;
-  motion::JointPath way_off(const belief::Belief& belief, int halts) const;
+  motion::JointPath way_off(const belief::Belief& belief, const motion::JointPath& way_back, int halts) const;
   std::optional<Realised> realised(const belief::Belief& belief, const BeliefState& state, const Choice& choice,
-                                   const support::Deadline& deadline) const;
+                                   const motion::JointPath& way_back, const support::Deadline& deadline) const;
   bool is_known(const action::Motion& motion) const;
   bool is_idle(const Choice& choice) const;
   bool is_made_already(const action::Motion& motion) const;
