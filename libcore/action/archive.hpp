@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "action/library.hpp"
+#include "action/action.hpp"
 #include "support/bytes.hpp"
 
 namespace tactus::action {

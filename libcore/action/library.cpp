@@ -2,12 +2,10 @@
 #include "action/library.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <numbers>
 
 #include "action/primitives.hpp"
 #include "action/probes.hpp"
-#include "support/rng.hpp"
 
 namespace tactus::action {
 namespace {
@@ -53,30 +51,6 @@ JointPath shifted(JointPath path, const JointVector& by) {
 }
 
 }  // namespace
-
-std::uint64_t path_id(const JointPath& path) {
-  std::uint64_t id = support::mix(path.size());
-  for (const JointVector& q : path)
-    for (const double value : q) id = support::mix(id ^ std::bit_cast<std::uint64_t>(value));
-  return id;
-}
-
-Action make_action(const Task& task, Kind kind, JointPath path, std::size_t lead,
-                   const std::vector<motion::PacedSegment>& pace) {
-  const scene::Scene& scene = task.scene();
-  Action action;
-  action.kind = kind;
-  action.id = path_id(path);
-  action.times = motion::time_path(*scene.robot, scene.tool_link, path, pace);
-  const motion::ToolTravel travel = motion::tool_travel(*scene.robot, scene.tool_link, path);
-  action.length = travel.metres;
-  action.full_cost = task.cost(travel) + task.options().cost.action;
-  action.bodies = BodyPath(task.bodies(), path);
-  action.lead = lead;
-  action.sensing = task.options().sensing;
-  action.path = std::move(path);
-  return action;
-}
 
 std::vector<MotionPtr> ActionLibrary::primitives_at(const JointVector& q, const support::Cancellation& cancellation) {
   const std::vector<double> key(q.data(), q.data() + q.size());

@@ -162,6 +162,10 @@ std::vector<const Trace*> believed(const std::vector<Trace>& history) {
   return traces;
 }
 
+bool has_met_something(const std::vector<Trace>& history) {
+  return std::any_of(history.begin(), history.end(), [](const Trace& trace) { return trace.contact; });
+}
+
 std::uint64_t fingerprint(const std::vector<Trace>& history, std::size_t count) {
   std::uint64_t print = support::mix(count);
   for (std::size_t i = 0; i < count; ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "action/library.hpp"
+#include "action/action.hpp"
 
 namespace tactus::belief {
 
@@ -58,6 +58,8 @@ struct Trace {
 
 /// The traces that are not doubted.
 std::vector<const Trace*> believed(const std::vector<Trace>& history);
+
+bool has_met_something(const std::vector<Trace>& history);
 
 /// Of what was done and seen, in order: equal for beliefs of one model that went through the same.
 std::uint64_t fingerprint(const std::vector<Trace>& history, std::size_t count);

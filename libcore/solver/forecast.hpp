@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "action/library.hpp"
 #include "belief/belief.hpp"
 
 namespace tactus::solver {

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
-#include "solver/greedy.hpp"
+#include "solver/candidates.hpp"
 #include "solver/pose_problem.hpp"
 #include "solver/voxel_problem.hpp"
 
@@ -13,15 +14,9 @@ namespace tactus::solver {
 namespace {
 
 constexpr std::uint64_t own_stream = 0x706c616e;  // apart from whatever else begins with the same seed
-constexpr double noticeable_bits = 0.1;  // by which an observation makes the belief smaller, if it tells anything;
-constexpr double swept_bits = 0.005;     // and as long as nothing was met
-constexpr int patience = 3;              // queries in a stage in which the belief hardly shrank
-constexpr int most_idle = 6;             // queries in a row whose actions were not to tell anything
-constexpr int stages = 3;
-constexpr double back_off = 0.01;         // of the way it came, in units of cost, from what it touched
-constexpr double farther = 3.0;           // times as far, each time that this was not enough
+constexpr double back_off = 0.01;                 // of the way it came, in units of cost, from what it touched
+constexpr double farther = 3.0;                   // times as far, each time that this was not enough
 constexpr double telling = 0.6;           // of the bits per cost that the best motion tells, once something was met
-constexpr double certain = 0.9;           // probability of meeting only what was met without avail
 constexpr double least_charge = 0.02;     // m by which a planned way to a motion is longer than was thought
 constexpr double in_the_way = 0.1;        // probability of meeting the target on the way, above which others are tried
 constexpr double search_sample = 4.0;     // times as many poses as long as nothing was met: they are cheap then;
@@ -32,10 +27,6 @@ constexpr double in_time = 0.95;          // of a budget in seconds: what is in 
 constexpr double with_way = 0.88;         // the same where the ways to motions are weighed after it,
 constexpr double to_weigh_ways = 0.94;    // and the same for those
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
-
-bool has_met_something(const std::vector<belief::Trace>& history) {
-  return std::any_of(history.begin(), history.end(), [](const belief::Trace& trace) { return trace.contact; });
-}
 
 }  // namespace
 
@@ -83,7 +74,7 @@ Answer Planner::query(const belief::Belief& belief) {
     policy_.reset();
     return {Answer::Kind::goal_reached, nullptr};
   }
-  note_fruitless(belief);
+  if (!progress_.note(belief, handed_out())) poses_.clear();
   if (const auto node = followed(belief)) {
     statistics_.from_policy = true;
     Answer answer = unless_cancelled([&] { return act(belief, *node, ways); });
@@ -119,61 +110,15 @@ const std::vector<Alternative>& Planner::alternatives() const {
   return alternatives_;
 }
 
-/// What was handed out last.
-const Choice& Planner::chosen() const { return policy_->search.choices(policy_->node)[policy_->choice]; }
-
-void Planner::note_fruitless(const belief::Belief& belief) {
-  const std::vector<belief::Trace>& history = belief.history();
-  const bool goes_on = history.size() >= standing_.observations &&
-                       belief::fingerprint(history, standing_.observations) == standing_.history;
-  if (!goes_on) standing_ = {}, poses_.clear();
-  const bool asked_again = goes_on && standing_.q.size() != 0 && history.size() == standing_.observations &&
-                           belief.health() == belief::Health::good;
-  if (asked_again) return;
-
-  const std::size_t size =
-      belief.phase() == belief::Phase::voxels ? belief.voxels().possibly_occupied().count() : belief.cells().size();
-  const bool is_first = standing_.q.size() == 0;
-  if (is_first || size != standing_.size || belief.configuration() != standing_.q)
-    standing_.fruitless.clear();
-  else if (!history.empty())
-    standing_.fruitless.push_back(history.back().action_id);
-  const double bits =
-      std::log2(belief.phase() == belief::Phase::voxels ? static_cast<double>(size) : belief.cells().weight());
-  const double noticeable = has_met_something(history) ? noticeable_bits : swept_bits;
-  const bool is_handed_out = policy_ && !history.empty() && history.back().action_id == policy_->action_id;
-  const bool was_to_tell = !is_handed_out || policy_->lead > 0 || chosen().information() > noticeable;
-  const bool shrank = is_first || bits < standing_.bits - noticeable;
-  standing_.idle = shrank || was_to_tell ? 0 : standing_.idle + 1;
-  standing_.stalls = shrank ? 0 : standing_.stalls + (was_to_tell || standing_.idle > most_idle);
-  if (is_handed_out && history.back().contact && policy_->lead == 0) {
-    const motion::JointPath& path = chosen().motion->path;
-    standing_.met.emplace_back(
-        path.begin(), path.begin() + static_cast<std::ptrdiff_t>(std::min(history.back().outcome + 1, path.size())));
-  }
-  if (is_handed_out) note_halt(history.back());
-  if (is_handed_out && chosen().motion->kind == action::Kind::insertion && !history.back().contact)
-    standing_.gone_in.push_back(model_->task->base_from_tool(belief.configuration()));
-  if (shrank) standing_.bits = bits;
-  standing_.q = belief.configuration();
-  standing_.size = size;
-  standing_.observations = history.size();
-  standing_.history = belief::fingerprint(history, history.size());
-}
-
-/// Counts how often in a row it was stopped before it was out: a small motion says nothing of the way out, free or not.
-void Planner::note_halt(const belief::Trace& last) {
-  if (last.outcome <= policy_->lead)
-    ++standing_.halts;
-  else if (policy_->lead > 0)
-    standing_.halts = 0;
+std::optional<HandedOut> Planner::handed_out() const {
+  if (!policy_ || policy_->action_id == 0) return std::nullopt;
+  return HandedOut{policy_->action_id, policy_->lead, policy_->search.choices(policy_->node)[policy_->choice]};
 }
 
 /// The node the belief has come to, if it is the predicted outcome of the action handed out and an action was computed
 /// for it.
 std::optional<int> Planner::followed(const belief::Belief& belief) {
-  if (!policy_ || is_bounded() || standing_.stalls >= patience || greedy_of(options_.solver) ||
-      belief.history().empty() ||
+  if (!policy_ || is_bounded() || progress_.is_stuck() || greedy_of(options_.solver) || belief.history().empty() ||
       belief::fingerprint(belief.history(), belief.history().size() - 1) != policy_->history)
     return std::nullopt;
   const belief::Trace& last = belief.history().back();
@@ -228,7 +173,7 @@ BeliefStatePtr Planner::on_poses(const belief::Belief& belief) {
 /// Bounds are of poses: their solver plans on poses from the first, whatever the phase.
 void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   const bool in_phase = belief.phase() == belief::Phase::poses;
-  if (standing_.stalls > 0 && standing_.stalls % patience == 0) poses_.clear();
+  if (progress_.enters_a_stage()) poses_.clear();
   policy_.reset();
   if (in_phase || is_bounded()) poses_ = draw(belief, deadline);
   const bool has_poses = in_phase || (is_bounded() && !poses_.empty());
@@ -270,52 +215,6 @@ Answer Planner::hand_out(const belief::Belief& belief, int node, std::size_t cho
   return {Answer::Kind::action, std::make_shared<const action::Action>(std::move(made))};
 }
 
-/// While the belief does not shrink: at first nothing is set aside; then small motions about where the robot is, and
-/// attempts; then small motions alone; and then all are tried again.
-Planner::Stage Planner::stage() const { return static_cast<Stage>(standing_.stalls / patience % stages); }
-
-/// Whether it goes the way of one that met something, as far as that: a robot that does not err would meet it again.
-bool Planner::is_known(const action::Motion& motion) const {
-  return std::any_of(standing_.met.begin(), standing_.met.end(), [&](const motion::JointPath& met) {
-    return met.size() <= motion.path.size() && std::equal(met.begin(), met.end(), motion.path.begin());
-  });
-}
-
-/// Whether it is a second small motion in a row that is not to tell anything: what a search finds behind one it found
-/// because it looked there, and would find from here too.
-bool Planner::is_idle(const Choice& choice) const {
-  return standing_.idle > 0 && !choice.motion->anchored && choice.information() <= noticeable_bits &&
-         choice.goal_probability() <= 0.0;
-}
-
-/// Whether it is an attempt all but where one met nothing and did not reach the goal: that would come of it again.
-bool Planner::is_made_already(const action::Motion& motion) const {
-  constexpr double nearly = 0.5;  // of the tolerances
-  if (motion.kind != action::Kind::insertion || standing_.gone_in.empty()) return false;
-  const scene::Target& target = model_->task->scene().target;
-  const geometry::Pose& end = motion.bodies.base_from_body(motion.path.size() - 1, 0);
-  return std::any_of(standing_.gone_in.begin(), standing_.gone_in.end(), [&](const geometry::Pose& earlier) {
-    return (end.translation() - earlier.translation()).norm() < nearly * target.position_tolerance &&
-           geometry::angle_between(end, earlier) < nearly * target.angle_tolerance;
-  });
-}
-
-bool Planner::is_unpromising(const action::Motion& motion) const {
-  return (stage() != Stage::all && !motion.anchored) ||
-         (stage() == Stage::probes && motion.kind == action::Kind::insertion);
-}
-
-/// What was touched by the last observations, by which the belief hardly shrank.
-std::vector<Touch> Planner::touched_in_vain(const belief::Belief& belief) const {
-  std::vector<Touch> touches;
-  if (standing_.stalls == 0) return touches;
-  const std::vector<belief::Trace>& history = belief.history();
-  const std::size_t count = std::min(history.size(), static_cast<std::size_t>(standing_.stalls) + 1);
-  for (std::size_t i = history.size() - count; i < history.size(); ++i)
-    if (const auto touch = touch_of(history[i])) touches.push_back(*touch);
-  return touches;
-}
-
 /// A little of the way it came, from what it touched: any other may lead along it. More of it each time that this was
 /// not enough to get out, `halts`.
 motion::JointPath Planner::way_off(const belief::Belief& belief, const motion::JointPath& way_back, int halts) const {
@@ -353,7 +252,7 @@ std::optional<Planner::Realised> Planner::realised(const belief::Belief& belief,
                                                    const support::Deadline& deadline) const {
   const support::Deadline unlimited(std::numeric_limits<double>::infinity(), UINT64_MAX, &cancelled_);
   std::optional<Realised> best;
-  for (int halts = standing_.halts; !best || !deadline.spent(); ++halts) {
+  for (int halts = progress_.halts(); !best || !deadline.spent(); ++halts) {
     const motion::JointPath way = way_off(belief, way_back, halts);
     auto made = library_->realise(belief.configuration(), *choice.motion, unlimited, way);
     if (!made) break;
@@ -370,62 +269,32 @@ std::optional<Planner::Realised> Planner::realised(const belief::Belief& belief,
 }
 
 /// The best motion at a node, made executable; the next best where the robot can't get to its start, or did so without
-/// avail. What the stage holds back is better than nothing.
+/// avail.
 Answer Planner::act(const belief::Belief& belief, int node, const support::Deadline& deadline) {
   Search& search = policy_->search;
-  const std::vector<Choice>& choices = search.choices(node);
-  std::vector<std::optional<action::Action>> reweighed(choices.size());
-  std::vector<bool> banned(choices.size(), false);
-  std::vector<Verdict> verdicts(choices.size(), Verdict::passed_over);
-  const auto ban = [&](std::size_t choice, Verdict verdict) {
-    banned[choice] = true;
-    verdicts[choice] = verdict;
-  };
+  const bool must_tell = is_bounded() && has_met_something(belief.history());
   const motion::JointPath way_back = belief.way_back();
-  const std::vector<Touch> touches = touched_in_vain(belief);
-  const bool does_not_err = !belief.sensing().errs();
-  const bool feels = has_met_something(belief.history());
-  std::vector<std::size_t> held_back;
-  for (std::size_t i = 0; i < choices.size(); ++i)
-    if (is_unpromising(*choices[i].motion) || (feels && is_idle(choices[i])) ||
-        (does_not_err && (is_known(*choices[i].motion) || is_made_already(*choices[i].motion))) ||
-        share_alike(choices[i], touches) > certain)
-      held_back.push_back(i), ban(i, Verdict::set_aside);
-  const auto left_out = [&] { return is_bounded() && feels ? falling_short(choices, telling, banned) : banned; };
-  const auto best = [&] {
-    const auto rule = greedy_of(options_.solver);
-    return rule ? greedy_choice(choices, *rule, banned) : search.best(node, left_out());
-  };
-  const auto next = [&] {
-    const auto choice = best();
-    if (choice || held_back.empty()) return choice;
-    for (const std::size_t i : held_back) banned[i] = false, verdicts[i] = Verdict::passed_over;
-    held_back.clear();
-    return best();
-  };
-  for (auto choice = next(); choice; choice = next()) {
+  Candidates candidates(search, node, greedy_of(options_.solver), must_tell ? telling : 0.0,
+                        progress_.held_back(belief, search.choices(node)));
+  std::unordered_map<std::size_t, action::Action> made;  ///< by choice, once weighed as it turned out
+  while (const auto choice = candidates.next()) {
     if (deadline.cancelled()) return {Answer::Kind::cancelled, nullptr};
-    auto made = std::move(reweighed[*choice]);
-    const bool is_reweighed = made.has_value();
-    std::optional<Realised> found;
-    if (!made && (found = realised(belief, search.state(node), choices[*choice], way_back, deadline)))
-      made = std::move(found->action);
-    if (made &&
-        std::find(standing_.fruitless.begin(), standing_.fruitless.end(), made->id) == standing_.fruitless.end()) {
-      if (!is_reweighed && (found->more > least_charge || found->choice.motion != choices[*choice].motion)) {
-        search.reweigh(node, *choice, std::move(found->choice));
-        reweighed[*choice] = std::move(made);
+    if (made.count(*choice) == 0) {
+      const Choice& thought = search.choices(node)[*choice];
+      auto found = realised(belief, search.state(node), thought, way_back, deadline);
+      if (!found && deadline.cancelled()) return {Answer::Kind::cancelled, nullptr};
+      if (!found || progress_.is_fruitless(found->action.id)) {
+        candidates.rule_out(*choice, found ? Verdict::set_aside : Verdict::unreachable);
         continue;
       }
-      const std::vector<bool> tells_too_little = left_out();
-      for (std::size_t i = 0; i < choices.size(); ++i)
-        if (tells_too_little[i] && verdicts[i] == Verdict::passed_over) verdicts[i] = Verdict::set_aside;
-      verdicts[*choice] = Verdict::chosen;
-      policy_->verdicts = std::move(verdicts);
-      return hand_out(belief, node, *choice, std::move(*made));
+      made.emplace(*choice, std::move(found->action));
+      if (found->more > least_charge || found->choice.motion != thought.motion) {
+        search.reweigh(node, *choice, std::move(found->choice));
+        continue;
+      }
     }
-    if (deadline.cancelled()) return {Answer::Kind::cancelled, nullptr};
-    ban(*choice, made ? Verdict::set_aside : Verdict::unreachable);
+    policy_->verdicts = candidates.verdicts(*choice);
+    return hand_out(belief, node, *choice, std::move(made.at(*choice)));
   }
   policy_.reset();
   return {Answer::Kind::no_informative_action, nullptr};

@@ -4,11 +4,12 @@
 #include <atomic>
 #include <optional>
 
+#include "action/library.hpp"
 #include "belief/belief.hpp"
 #include "solver/alternatives.hpp"
 #include "solver/predictions.hpp"
+#include "solver/progress.hpp"
 #include "solver/solvers.hpp"
-#include "solver/touches.hpp"
 
 namespace tactus::solver {
 
@@ -56,23 +57,16 @@ class Planner {
   std::optional<int> followed(const belief::Belief& belief);
   Answer act(const belief::Belief& belief, int node, const support::Deadline& deadline);
   Answer hand_out(const belief::Belief& belief, int node, std::size_t choice, action::Action made);
-  enum class Stage { all, probes, anchored };  ///< what is tried
   /// A motion made executable, weighed as it turned out, and what it costs more than was thought.
   struct Realised {
     action::Action action;
     Choice choice;
     double more = 0.0;
   };
-  Stage stage() const;
-  const Choice& chosen() const;
+  std::optional<HandedOut> handed_out() const;
   motion::JointPath way_off(const belief::Belief& belief, const motion::JointPath& way_back, int halts) const;
   std::optional<Realised> realised(const belief::Belief& belief, const BeliefState& state, const Choice& choice,
                                    const motion::JointPath& way_back, const support::Deadline& deadline) const;
-  bool is_known(const action::Motion& motion) const;
-  bool is_idle(const Choice& choice) const;
-  bool is_made_already(const action::Motion& motion) const;
-  bool is_unpromising(const action::Motion& motion) const;
-  std::vector<Touch> touched_in_vain(const belief::Belief& belief) const;
   void predict(const belief::Belief& belief);
   bool is_bounded() const { return second_value_of(options_.solver) == SecondValue::upper_bound; }
   std::vector<belief::Drawn> draw(const belief::Belief& belief, const support::Deadline& deadline);
@@ -87,28 +81,7 @@ class Planner {
   PlannerOptions options_;
   std::shared_ptr<action::ActionLibrary> library_;
   support::Rng rng_;
-  /// An action that left the belief and the configuration as they were is not handed out again until something changes;
-  /// nor, while the belief hardly shrinks, one that is all but certain to meet what was met without avail (`alike`),
-  /// nor an attempt all but where one met nothing and was not the last; and after some queries in which the belief
-  /// hardly shrank only probes are, then attempts too, then all again: the poses planned on promise more of small
-  /// touches than the cells can take in. Begins anew with a belief that has been through something else.
-  void note_fruitless(const belief::Belief& belief);
-  void note_halt(const belief::Trace& last);
-
-  struct Standing {
-    std::size_t observations = 0;
-    std::uint64_t history = belief::fingerprint({}, 0);
-    robot::JointVector q;  ///< empty before the first query
-    std::size_t size = 0;  ///< cells or voxels
-    std::vector<std::uint64_t> fruitless;
-    std::vector<motion::JointPath> met;   ///< of small motions that met something, up to there
-    std::vector<geometry::Pose> gone_in;  ///< ends of attempts that met nothing, of the tool in the base frame
-    double bits = 0.0;                    ///< when the belief last shrank noticeably
-    int stalls = 0;                       ///< queries since then
-    int idle = 0;                         ///< queries since then whose action was not to tell anything
-    int halts = 0;                        ///< in a row, before an action's motion proper had begun
-  };
-  Standing standing_;
+  Progress progress_;
   double sample_;                             ///< times as many poses as long as nothing was met
   double sample_after_ = 1.0;                 ///< and from then on
   std::vector<belief::Drawn> poses_;          ///< of the last planning call, of the same history

@@ -5,7 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "belief/belief.hpp"
+#include "action/library.hpp"
 #include "solver/predictions.hpp"
 #include "solver/problem.hpp"
 #include "solver/rate_policy.hpp"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "action/library.hpp"
+#include "action/action.hpp"
 #include "support/bitset.hpp"
 #include "support/deadline.hpp"
 

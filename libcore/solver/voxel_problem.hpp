@@ -3,6 +3,7 @@
 
 #include <unordered_map>
 
+#include "action/library.hpp"
 #include "belief/belief.hpp"
 #include "solver/predictions.hpp"
 #include "solver/problem.hpp"

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "action/library.hpp"
 #include "belief/belief.hpp"
 
 /// A task made in code: a gantry with a wrist (slides x y z, then turns about x y z) that carries a box with a square
