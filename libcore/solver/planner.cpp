@@ -163,11 +163,11 @@ BeliefStatePtr Planner::on_voxels(const belief::Belief& belief, const support::D
       ->start(belief.configuration(), belief.voxels());
 }
 
-BeliefStatePtr Planner::on_poses(const belief::Belief& belief) {
+BeliefStatePtr Planner::on_poses(const belief::Belief& belief, const support::Deadline& deadline) {
   predict(belief);
   return std::make_shared<PoseProblem>(model_->task, library_, predictions_, belief.bits(), options_.cost_per_bit,
                                        second_value_of(options_.solver), !has_met_something(belief.history()))
-      ->start(belief.configuration());
+      ->start(belief.configuration(), deadline);
 }
 
 /// Bounds are of poses: their solver plans on poses from the first, whatever the phase.
@@ -179,8 +179,8 @@ void Planner::plan(const belief::Belief& belief, support::Deadline& deadline) {
   const bool has_poses = in_phase || (is_bounded() && !poses_.empty());
   SearchOptions search = search_options(options_);
   search.bounded = search.bounded && has_poses;
-  policy_ =
-      std::make_unique<Policy>(Policy{Search(has_poses ? on_poses(belief) : on_voxels(belief, deadline), search)});
+  policy_ = std::make_unique<Policy>(
+      Policy{Search(has_poses ? on_poses(belief, deadline) : on_voxels(belief, deadline), search)});
   const bool searches = search.bounded && !has_met_something(belief.history());
   const bool is_greedy = greedy_of(options_.solver).has_value();
   if (is_greedy || search.bounded) policy_->search.expand_start(deadline);

@@ -72,7 +72,7 @@ class Planner {
   std::vector<belief::Drawn> draw(const belief::Belief& belief, const support::Deadline& deadline);
   void fit_sample(double& times, double least, double most, double used) const;
   BeliefStatePtr on_voxels(const belief::Belief& belief, const support::Deadline& deadline);
-  BeliefStatePtr on_poses(const belief::Belief& belief);
+  BeliefStatePtr on_poses(const belief::Belief& belief, const support::Deadline& deadline);
   void plan(const belief::Belief& belief, support::Deadline& deadline);
   template <typename Work>
   Answer unless_cancelled(Work&& work);

@@ -30,6 +30,8 @@ constexpr std::size_t least_walked = 12;      // poses for which a walk is weigh
 constexpr std::size_t most_swept = 150;       // poses for which sweeps are
 constexpr std::size_t each_when_late = 8;     // motions of a kind that are weighed at the start when time is up,
 constexpr std::size_t each_once_met = 3;      // and once something was met, where each takes tens of milliseconds
+constexpr double latest = 1.05;               // share of a budget in seconds when what is in hand is given up,
+constexpr double latest_walk = 0.6;           // and when a walk is as far laid out as it is
 constexpr double same_seat = 0.0015;          // m between seated poses that one attempt may serve
 constexpr double lever = 0.02;                // m by which a turn counts as a shift there
 
@@ -146,7 +148,7 @@ class PoseState : public BeliefState {
   }
 
   void limit_to(const support::Deadline& deadline) const {
-    problem_->predictions_->time_limit().set(deadline.latest());
+    problem_->predictions_->time_limit().set(deadline.at(latest));
   }
 
   static std::vector<std::size_t> indices(const Bitset& members) {
@@ -264,12 +266,15 @@ double PoseProblem::rehearse(const std::shared_ptr<const action::Task>& task,
   return weighed_in(1);
 }
 
-BeliefStatePtr PoseProblem::start(const JointVector& q) {
+BeliefStatePtr PoseProblem::start(const JointVector& q, const support::Deadline& deadline) {
   if (second_ == SecondValue::upper_bound) {
     policy_ = rate_policy(q);
-    if (nothing_met_)
+    if (nothing_met_) {
+      predictions_->time_limit().set(deadline.at(latest_walk));
       walk_ = std::make_unique<WalkPolicy>(task_, library_->lattice_through(q), *predictions_, *policy_,
                                            task_->base_from_tool(q), dimensions());
+      predictions_->time_limit().lift();
+    }
   }
   return std::make_shared<PoseState>(shared_from_this(), q, Bitset(predictions_->poses().size(), true), true);
 }

@@ -36,8 +36,9 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
                          const std::shared_ptr<action::ActionLibrary>& library, std::size_t poses);
 
   /// The belief at the start: all poses. Without an upper bound as the second value, what a bit is worth to the
-  /// heuristics of what follows depends on its choices: they are to be asked for first.
-  BeliefStatePtr start(const robot::JointVector& q);
+  /// heuristics of what follows depends on its choices: they are to be asked for first. A walk is laid out as far as
+  /// there is time for it.
+  BeliefStatePtr start(const robot::JointVector& q, const support::Deadline& deadline = support::Deadline::unlimited());
 
  private:
   friend class PoseState;

@@ -15,7 +15,7 @@ WalkPolicy::WalkPolicy(std::shared_ptr<const action::Task> task, std::shared_ptr
       after_(after),
       dimensions_(dimensions),
       walks_(std::move(task), std::move(lattice), predictions),
-      first_(walks_.best(Bitset(predictions_.poses().size(), true), base_from_tool, thorough)),
+      first_(walks_.best_in_time(Bitset(predictions_.poses().size(), true), base_from_tool, thorough)),
       costs_after_(walks_.lattice().size() * action::Lattice::directions) {
   walks_.look_ahead_as_on(first_);
 }

@@ -15,7 +15,8 @@ class WalkPolicy {
   using Members = RatePolicy::Members;
 
   /// `predictions` and `after` must outlive it. `base_from_tool`: where planning begins, by which the beam is told how
-  /// far there is to go. `dimensions`: of the poses, as for `least_group`.
+  /// far there is to go. `dimensions`: of the poses, as for `least_group`. The first walk is as good as there is time
+  /// for, by the predictions' limit.
   WalkPolicy(std::shared_ptr<const action::Task> task, std::shared_ptr<const action::Lattice> lattice,
              Predictions& predictions, RatePolicy& after, const geometry::Pose& base_from_tool, int dimensions);
 

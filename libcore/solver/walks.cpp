@@ -118,12 +118,16 @@ class Walks::Beam {
   Beam(const Walks& walks, const Bitset& members, std::size_t width)
       : walks_(walks), members_(members), count_(members.count()), total_(static_cast<double>(count_)), width_(width) {}
 
-  Walk from(const Pose& base_from_tool) {
+  /// May be cut short: there is something then too.
+  void search(const Pose& base_from_tool) {
     enter(base_from_tool);
     go_where_nothing_is_touched();
     current_.resize(stands_.size());
     for (std::size_t i = 0; i < stands_.size(); ++i) current_[i] = i;
     for (int length = 0; length < longest_walk && !current_.empty(); ++length) go_on();
+  }
+
+  Walk found() {
     if (best_ == none) give_up();
     return walk_to(best_);
   }
@@ -240,7 +244,7 @@ class Walks::Beam {
     return next;
   }
 
-  /// What is left can't be walked to.
+  /// What is left can't be walked to, or there is no time to find out how.
   void give_up() {
     for (std::size_t i = 0; i < stands_.size(); ++i) {
       const double value = stands_[i].expected + given_up * static_cast<double>(stands_[i].count) / total_;
@@ -270,7 +274,18 @@ class Walks::Beam {
 };
 
 Walk Walks::best(const Bitset& members, const Pose& base_from_tool, std::size_t beam) const {
-  return Beam(*this, members, beam).from(base_from_tool);
+  Beam search(*this, members, beam);
+  search.search(base_from_tool);
+  return search.found();
+}
+
+Walk Walks::best_in_time(const Bitset& members, const Pose& base_from_tool, std::size_t beam) const {
+  Beam search(*this, members, beam);
+  try {
+    search.search(base_from_tool);
+  } catch (const support::OutOfTime&) {
+  }
+  return search.found();
 }
 
 std::optional<Walk> Walks::rest(const Walk& walk, const Pose& base_from_tool) const {

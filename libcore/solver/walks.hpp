@@ -42,6 +42,9 @@ class Walks {
   /// time it takes grows with them.
   Walk best(const support::Bitset& members, const geometry::Pose& base_from_tool, std::size_t beam) const;
 
+  /// The same, or the best that was found when the predictions ran out of time.
+  Walk best_in_time(const support::Bitset& members, const geometry::Pose& base_from_tool, std::size_t beam) const;
+
   /// From the place on a walk that is the cheapest to get to, of several the last; none if there is no way to any.
   std::optional<Walk> rest(const Walk& walk, const geometry::Pose& base_from_tool) const;
 

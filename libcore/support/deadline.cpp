@@ -17,10 +17,10 @@ double Deadline::used_fraction() const {
   return std::min(1.0, std::max(of_time, of_count));
 }
 
-Deadline::Clock::time_point Deadline::latest() const {
-  constexpr double most = 1e6, later = 1.05;
+Deadline::Clock::time_point Deadline::at(double share) const {
+  constexpr double most = 1e6;
   if (!(seconds_ < most)) return Clock::time_point::max();
-  return start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(later * seconds_));
+  return start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(share * seconds_));
 }
 
 double Deadline::elapsed_seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

@@ -24,7 +24,7 @@ class Deadline {
   bool spent() const;            ///< out of time, out of expansions, or cancelled
   double used_fraction() const;  ///< of the tighter budget, in [0, 1]; 0 without one, 1 if cancelled
   double elapsed_seconds() const;
-  Clock::time_point latest() const;  ///< a twentieth later than it is out of time; the end of all time without a limit
+  Clock::time_point at(double share) const;  ///< so much of the seconds; the end of all time without a limit
   std::uint64_t expansions() const { return used_; }
 
  private:

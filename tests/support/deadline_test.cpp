@@ -67,13 +67,13 @@ TEST(Deadline, TheFractionOfAnEmptyBudgetIsOne) {
   EXPECT_EQ(Deadline(0.0, UINT64_MAX).used_fraction(), 1.0);
 }
 
-TEST(Deadline, ItsLatestIsATwentiethLater) {
+TEST(Deadline, SaysWhenAShareOfItIsUsed) {
   const auto now = Deadline::Clock::now();
   const Deadline deadline(100.0, UINT64_MAX);
-  const std::chrono::duration<double> until = deadline.latest() - now;
+  const std::chrono::duration<double> until = deadline.at(1.05) - now;
   EXPECT_GE(until.count(), 105.0 - 1e-6);
   EXPECT_LT(until.count(), 105.0 + 100.0 * deadline.used_fraction() + 1e-3);
-  EXPECT_EQ(Deadline::unlimited().latest(), Deadline::Clock::time_point::max());
+  EXPECT_EQ(Deadline::unlimited().at(0.5), Deadline::Clock::time_point::max());
 }
 
 TEST(TimeLimit, EndsWhatAsksUntilItIsLifted) {
