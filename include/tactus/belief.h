@@ -107,7 +107,7 @@ typedef struct tactus_summary {
   uint64_t possibly_occupied; /**< voxels; 0 in the pose phase */
   double volume;              /**< of these voxels, m^3; 0 in the pose phase */
   uint64_t cells;             /**< of poses; 0 in the voxel phase */
-  double bits;                /**< log2 of how many task tolerances the belief spans */
+  double bits;                /**< entropy of the pose in steps of the task's tolerances: log2 of how many it spans */
   double mean[6];             /**< of the target's pose; angles: circular mean */
   double extent[6];           /**< full widths */
   double covariance[36];      /**< 6 x 6, row by row */

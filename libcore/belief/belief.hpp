@@ -53,7 +53,7 @@ struct Summary {
   std::size_t possibly_occupied = 0;  ///< voxels; 0 in the pose phase
   double volume = 0.0;                ///< m^3 of PO; 0 in the pose phase
   std::size_t cells = 0;              ///< 0 in the voxel phase
-  double bits = 0.0;                  ///< log2 of how many task tolerances the belief spans: its entropy
+  double bits = 0.0;  ///< entropy of the pose in steps of the task's tolerances: log2 of how many of them it spans
   PoseVector mean{},
       extent{};  ///< of the target's pose: middle (angles: circular mean) and full extents, x y z roll pitch yaw
   std::array<double, 36> covariance{};  ///< of the same six, row-major
@@ -126,7 +126,7 @@ class Belief {
 
   Summary summary() const;  ///< O(cells)
 
-  /// As the summary has it; O(1) for cells of a prior without weights.
+  /// As the summary has it; O(1) for a grid of cells of a prior without weights.
   double bits() const;
 
   /// The whole state as bytes, versioned and with a checksum; `restore` gives a belief that acts like this one. Throws

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <numbers>
+#include <unordered_map>
 
 #include "belief/belief.hpp"
 
@@ -49,37 +50,94 @@ Vector6 mean_of(const CellBelief& cells, double total) {
   return sum;
 }
 
-/// The entropy in units of the task tolerance: within a cell the target is uniform.
-double bits_of(const CellBelief& cells, const Task& task) {
-  const double total = cells.weight();
-  double bits = std::log2(total / tolerance_volume(task));
-  if (cells.is_uniform()) return std::max(0.0, bits);
-  cells.for_each([&](const Cell& cell) {
-    const double weight = cells.weight(cell);
-    if (weight > 0.0) bits -= weight / total * std::log2(weight / cells.volume(cell));
+/// Of a cell's centre, the shorter way round.
+Vector6 offset(const Cell& cell, const Vector6& from) {
+  Vector6 off = Eigen::Map<const Vector6>(cell.centre.data()) - from;
+  for (int d = 3; d < 6; ++d) off[d] = scene::nearest_angle(cell.centre[d], from[d]) - from[d];
+  return off;
+}
+
+/// Where the cells lie about their mean, but for the negligible ones.
+struct Span {
+  Vector6 mean = Vector6::Zero(), low = Vector6::Constant(1e300), high = -low;
+  Vector6 middle() const { return mean + 0.5 * (low + high); }
+};
+
+Span span_of(const CellBelief& cells, double total) {
+  Span span{mean_of(cells, total)};
+  cells.for_each_weighed([&](const Cell& cell, const PoseVector& half_width, double weight) {
+    if (weight <= 0.0 || cell.bits > negligible_bits) return;
+    const Eigen::Map<const Vector6> half(half_width.data());
+    const Vector6 off = offset(cell, span.mean);
+    span.low = span.low.cwiseMin(off - half);
+    span.high = span.high.cwiseMax(off + half);
   });
-  return std::max(0.0, bits);
+  return span;
+}
+
+/// Cells put together that no task tolerance tells apart.
+class Boxes {
+ public:
+  Boxes(const Task& task, const Vector6& middle) : middle_(middle) {
+    for (int d = 0; d < 6; ++d)
+      wide_[d] = 2.0 * (d < 3 ? task.scene().target.position_tolerance : task.scene().target.angle_tolerance);
+  }
+
+  void add(const Cell& cell, const PoseVector& half_width, double share) {
+    const Vector6 off = offset(cell, middle_);
+    std::uint64_t key = 0;
+    double tolerances = 1.0;
+    for (int d = 0; d < 6; ++d) {
+      const double width = 2.0 * half_width[d];
+      if (width <= 0.0) continue;
+      if (width > wide_[d]) {
+        tolerances *= width / wide_[d];
+        key = support::mix(key ^ std::bit_cast<std::uint64_t>(cell.centre[d])) ^ cell.splits[d];
+      } else {
+        key = support::mix(key ^ static_cast<std::uint64_t>(std::llround(off[d] / wide_[d])));
+      }
+    }
+    const auto [found, is_new] = index_.try_emplace(key, shares_.size());
+    if (is_new) shares_.emplace_back(0.0, tolerances);
+    shares_[found->second].first += share;
+  }
+
+  double entropy() const {
+    double bits = 0.0;
+    for (const auto& [share, tolerances] : shares_)
+      if (share > 0.0) bits += share * std::log2(tolerances / share);
+    return std::max(0.0, bits);
+  }
+
+ private:
+  Vector6 middle_, wide_;
+  std::unordered_map<std::uint64_t, std::size_t> index_;
+  std::vector<std::pair<double, double>> shares_;  ///< of the weight, and of how many tolerances
+};
+
+/// The entropy of the pose in steps of the task tolerance: within a cell the target is uniform. Of a grid without
+/// weights by its volume, as if no cell were smaller than that.
+double bits_of(const CellBelief& cells, const Task& task, double total, const Vector6& middle) {
+  if (cells.grid() && cells.is_uniform()) return std::max(0.0, std::log2(total / tolerance_volume(task)));
+  Boxes boxes(task, middle);
+  cells.for_each_weighed([&](const Cell& cell, const PoseVector& half_width, double weight) {
+    if (weight > 0.0) boxes.add(cell, half_width, weight / total);
+  });
+  return boxes.entropy();
 }
 
 void describe_cells(const CellBelief& cells, const Task& task, Summary& summary) {
   const double total = cells.weight();
-  const Vector6 mean = mean_of(cells, total);
-  Vector6 low = Vector6::Constant(1e300), high = -low;
+  const Span span = span_of(cells, total);
   Matrix6 covariance = Matrix6::Zero();
   cells.for_each_weighed([&](const Cell& cell, const PoseVector& half_width, double weight) {
-    if (weight <= 0.0) return;
     const Eigen::Map<const Vector6> half(half_width.data());
-    Vector6 off = Eigen::Map<const Vector6>(cell.centre.data()) - mean;
-    for (int d = 3; d < 6; ++d) off[d] = scene::nearest_angle(cell.centre[d], mean[d]) - mean[d];
-    if (cell.bits <= negligible_bits) {
-      low = low.cwiseMin(off - half);
-      high = high.cwiseMax(off + half);
-    }
+    const Vector6 off = offset(cell, span.mean);
     covariance += weight / total * (off * off.transpose() + Matrix6(half.cwiseAbs2().asDiagonal()) / 3.0);
   });
   summary.cells = cells.size();
-  summary.bits = bits_of(cells, task);
-  for (int d = 0; d < 6; ++d) summary.mean[d] = mean[d], summary.extent[d] = high[d] - low[d];
+  summary.bits = bits_of(cells, task, total, span.middle());
+  for (int d = 0; d < 6; ++d) summary.mean[d] = span.mean[d], summary.extent[d] = span.high[d] - span.low[d];
   std::copy(covariance.data(), covariance.data() + 36, summary.covariance.begin());
 }
 
@@ -110,7 +168,12 @@ void describe_voxels(const VoxelBelief& voxels, const Task& task, Summary& summa
 
 }  // namespace
 
-double Belief::bits() const { return cells_ ? bits_of(*cells_, task()) : summary().bits; }
+double Belief::bits() const {
+  if (!cells_) return summary().bits;
+  const double total = cells_->weight();
+  const bool is_by_volume = cells_->grid() && cells_->is_uniform();
+  return bits_of(*cells_, task(), total, is_by_volume ? Vector6::Zero() : span_of(*cells_, total).middle());
+}
 
 Summary Belief::summary() const {
   Summary summary;

@@ -165,7 +165,8 @@ BeliefStatePtr Planner::on_voxels(const belief::Belief& belief, const support::D
 
 BeliefStatePtr Planner::on_poses(const belief::Belief& belief, const support::Deadline& deadline) {
   predict(belief);
-  return std::make_shared<PoseProblem>(model_->task, library_, predictions_, belief.bits(), options_.cost_per_bit,
+  const double bits = is_bounded() ? 0.0 : belief.bits();  // only greedy heuristics ask
+  return std::make_shared<PoseProblem>(model_->task, library_, predictions_, bits, options_.cost_per_bit,
                                        second_value_of(options_.solver), !has_met_something(belief.history()))
       ->start(belief.configuration(), deadline);
 }

@@ -28,8 +28,7 @@ constexpr std::size_t most_anchored = 24;     // motions that a policy's cost is
 constexpr std::size_t weighed_carefully = 8;  // choices
 constexpr std::size_t least_walked = 12;      // poses for which a walk is weighed
 constexpr std::size_t most_swept = 150;       // poses for which sweeps are
-constexpr std::size_t each_when_late = 8;     // motions of a kind that are weighed at the start when time is up,
-constexpr std::size_t each_once_met = 3;      // and once something was met, where each takes tens of milliseconds
+constexpr std::size_t each_when_late = 3;     // motions of a kind that are weighed at the start when time is up
 constexpr double latest = 1.05;               // share of a budget in seconds when what is in hand is given up,
 constexpr double latest_walk = 0.6;           // and when a walk is as far laid out as it is
 constexpr double same_seat = 0.0015;          // m between seated poses that one attempt may serve
@@ -302,10 +301,7 @@ double PoseProblem::simulated(const std::vector<std::size_t>& group, const Pose&
 
 /// How many motions of each kind are weighed where planning starts, time or not: with an upper bound, which says what
 /// any of them is worth, some of each; without, all, as the best of some may be far from any good.
-std::size_t PoseProblem::weighed_late() const {
-  if (!policy_) return SIZE_MAX;
-  return nothing_met_ ? each_when_late : each_once_met;
-}
+std::size_t PoseProblem::weighed_late() const { return policy_ ? each_when_late : SIZE_MAX; }
 
 int PoseProblem::dimensions() const {
   const geometry::PoseVector& width = task_->scene().prior.width;

@@ -28,8 +28,11 @@ class WalkPolicy {
 
   static constexpr std::size_t quick = 6, careful = 24;
 
-  /// Moves from where a robot at `q` stands along the lattice of its walks, as `Walks::steps_from`.
-  std::vector<action::MotionPtr> steps_from(const robot::JointVector& q) const { return walks_.steps_from(q); }
+  /// Moves from where a robot at `q` stands along the lattice of its walks, as `Walks::steps_from`; that on the walk
+  /// found where planning begins in front.
+  std::vector<action::MotionPtr> steps_from(const robot::JointVector& q) const {
+    return walks_.steps_from(q, first_.steps.empty() ? 0 : first_.steps.front().second);
+  }
 
   double pitch() const { return walks_.lattice().pitch(); }  ///< m, of its steps
 

@@ -95,12 +95,12 @@ double Walks::entry_cost(const Pose& base_from_tool, std::size_t place) const {
                             : blocked;
 }
 
-std::vector<MotionPtr> Walks::steps_from(const robot::JointVector& q) const {
+std::vector<MotionPtr> Walks::steps_from(const robot::JointVector& q, std::size_t first) const {
   const auto any = [](std::size_t) { return true; };
   const auto here = nearest_place(*lattice_, task_->base_from_tool(q).translation(), Lattice::same_place, any);
   std::vector<MotionPtr> steps;
-  for (std::size_t direction = 0; here && direction < Lattice::directions; ++direction) {
-    const auto next = lattice_->neighbour(*here, direction);
+  for (std::size_t i = 0; here && i < Lattice::directions; ++i) {
+    const auto next = lattice_->neighbour(*here, (first + i) % Lattice::directions);
     if (!next) continue;
     auto path = task_->straight_path(q, lattice_->base_from_tool(*next), task_->options().motion.step,
                                      predictions_.cancellation());

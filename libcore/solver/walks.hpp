@@ -34,8 +34,9 @@ class Walks {
   /// any other.
   double entry_cost(const geometry::Pose& base_from_tool, std::size_t place) const;
 
-  /// The moves of a robot at `q`, whose tool is at a place, to the places next to it; none if it is at no place.
-  std::vector<action::MotionPtr> steps_from(const robot::JointVector& q) const;
+  /// The moves of a robot at `q`, whose tool is at a place, to the places next to it, that in the direction `first` in
+  /// front; none if it is at no place.
+  std::vector<action::MotionPtr> steps_from(const robot::JointVector& q, std::size_t first = 0) const;
 
   /// The walk on which the least is spent on average until it touches the target, if that is at one of these poses. If
   /// it can't get to nearly all of them, a walk to those that it can. `beam`: ways that are followed side by side; the

@@ -26,7 +26,7 @@ class Summary:
     possibly_occupied: int  # voxels; 0 in the pose phase
     volume: float           # of these voxels, m^3
     cells: int              # of poses; 0 in the voxel phase
-    bits: float             # log2 of how many task tolerances the belief spans
+    bits: float             # entropy of the pose in steps of the task's tolerances: log2 of how many it spans
     mean: np.ndarray        # of the target's pose (6)
     extent: np.ndarray      # full widths (6)
     covariance: np.ndarray  # (6 x 6)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <set>
 
@@ -275,6 +276,37 @@ TEST(Cells, DrawnPosesDoNotCrowdBesideWhatWasSwept) {
 
 TEST(Cells, BitsAreThoseOfTheSummary) {
   observe(23, 8, [](const Belief& belief, const PoseVector&) { EXPECT_EQ(belief.bits(), belief.summary().bits); });
+}
+
+/// A belief as thin as a sheet, and a hand wide, is not all but known, though next to nothing of its volume is left.
+TEST(Cells, BitsCountWhatTheTolerancesTellApartHoweverThinItIs) {
+  constexpr double beyond_a_box = 0.3;  // bits: cells lie in the box that holds their centre
+  const scene::Target& target = task().scene().target;
+  const PoseVector tolerance{2.0 * target.position_tolerance, 2.0 * target.position_tolerance,
+                             2.0 * target.position_tolerance, 2.0 * target.angle_tolerance,
+                             2.0 * target.angle_tolerance,    2.0 * target.angle_tolerance};
+  int thin = 0, known = 0;
+  for (const std::uint64_t seed : {23u, 24u, 25u, 26u, 27u, 28u})
+    observe(seed, 10, [&](const Belief& belief, const PoseVector&) {
+      const belief::Summary summary = belief.summary();
+      double tolerances = belief.cells().volume(), boxes = 1.0;
+      for (std::size_t d = 0; d < 6; ++d) {
+        if (task().scene().prior.width[d] > 0.0) tolerances /= tolerance[d];
+        boxes *= std::max(1.0, std::ceil(summary.extent[d] / tolerance[d]) + 1.0);
+      }
+      const bool is_within =
+          std::equal(summary.extent.begin(), summary.extent.end(), tolerance.begin(), std::less_equal<>{});
+      ASSERT_GE(summary.bits, std::log2(tolerances) - beyond_a_box);
+      ASSERT_LE(summary.bits, std::log2(boxes));
+      if (is_within) {
+        ASSERT_NEAR(summary.bits, 0.0, 1e-9);
+      }
+      known += is_within;
+      thin += summary.bits > std::max(0.0, std::log2(tolerances)) + 1.0;
+    });
+  RecordProperty("thin", thin);
+  EXPECT_GT(thin, 0);
+  EXPECT_GT(known, 0);
 }
 
 /// Boxes of cells are asked before cells: what that drops beyond the cells' own answers must hold no pose that would

@@ -125,6 +125,20 @@ TEST(Walks, StepsLeadFromWhereTheRobotStandsToTheNextPlaces) {
           is_next = is_next || (lattice.base_from_tool(*next).translation() - end).norm() < 0.001;
       EXPECT_TRUE(is_next);
     }
+    const std::vector<action::MotionPtr> steps = setting.walks.steps_from(*q);
+    const auto leads = [&](const action::MotionPtr& step, std::size_t direction) {
+      const auto next = lattice.neighbour(place, direction);
+      return next &&
+             (lattice.base_from_tool(*next).translation() - setting.on->base_from_tool(step->path.back()).translation())
+                     .norm() < 0.001;
+    };
+    for (std::size_t first = 0; first < Lattice::directions; ++first) {
+      const std::vector<action::MotionPtr> reordered = setting.walks.steps_from(*q, first);
+      ASSERT_EQ(reordered.size(), steps.size());
+      if (std::any_of(steps.begin(), steps.end(), [&](const auto& step) { return leads(step, first); })) {
+        EXPECT_TRUE(leads(reordered.front(), first));
+      }
+    }
     robot::JointVector elsewhere = *q;
     elsewhere[0] += 0.1;
     EXPECT_TRUE(setting.walks.steps_from(elsewhere).empty() || lattice.passes(elsewhere));
