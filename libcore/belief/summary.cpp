@@ -77,6 +77,8 @@ Span span_of(const CellBelief& cells, double total) {
 
 /// Cells put together that no task tolerance tells apart.
 class Boxes {
+  static constexpr double beside_edge = 1e-6;  ///< of a box: a cell on an edge is on one side, whatever the rounding
+
  public:
   Boxes(const Task& task, const Vector6& middle) : middle_(middle) {
     for (int d = 0; d < 6; ++d)
@@ -94,7 +96,8 @@ class Boxes {
         tolerances *= width / wide_[d];
         key = support::mix(key ^ std::bit_cast<std::uint64_t>(cell.centre[d])) ^ cell.splits[d];
       } else {
-        key = support::mix(key ^ static_cast<std::uint64_t>(std::llround(off[d] / wide_[d])));
+        const double box = std::floor(off[d] / wide_[d] + 0.5 + beside_edge);
+        key = support::mix(key ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(box)));
       }
     }
     const auto [found, is_new] = index_.try_emplace(key, shares_.size());

@@ -133,7 +133,8 @@ TEST(Weights, ASummaryIsThePlainSumOverTheCells) {
           const double width = 2.0 * belief.cells().half_width(cell)[d], wide = std::max(width, tolerances[i]);
           boxed.tolerances *= wide / tolerances[i];
           const bool is_coarse = width > tolerances[i];
-          box[i] = {is_coarse, is_coarse ? cell.centre[d] : std::round((cell.centre[d] - middle[d]) / wide)};
+          box[i] = {is_coarse,
+                    is_coarse ? cell.centre[d] : std::floor((cell.centre[d] - middle[d]) / wide + 0.5 + 1e-6)};
         }
         boxes.try_emplace(box, boxed).first->second.weight += share;
       }
