@@ -118,10 +118,12 @@ class Boxes {
   std::vector<std::pair<double, double>> shares_;  ///< of the weight, and of how many tolerances
 };
 
+bool are_by_volume(const CellBelief& cells) { return cells.grid() && cells.is_uniform(); }
+
 /// The entropy of the pose in steps of the task tolerance: within a cell the target is uniform. Of a grid without
 /// weights by its volume, as if no cell were smaller than that.
 double bits_of(const CellBelief& cells, const Task& task, double total, const Vector6& middle) {
-  if (cells.grid() && cells.is_uniform()) return std::max(0.0, std::log2(total / tolerance_volume(task)));
+  if (are_by_volume(cells)) return std::max(0.0, std::log2(total / tolerance_volume(task)));
   Boxes boxes(task, middle);
   cells.for_each_weighed([&](const Cell& cell, const PoseVector& half_width, double weight) {
     if (weight > 0.0) boxes.add(cell, half_width, weight / total);
@@ -174,8 +176,8 @@ void describe_voxels(const VoxelBelief& voxels, const Task& task, Summary& summa
 double Belief::bits() const {
   if (!cells_) return summary().bits;
   const double total = cells_->weight();
-  const bool is_by_volume = cells_->grid() && cells_->is_uniform();
-  return bits_of(*cells_, task(), total, is_by_volume ? Vector6::Zero() : span_of(*cells_, total).middle());
+  const Vector6 middle = are_by_volume(*cells_) ? Vector6::Zero() : span_of(*cells_, total).middle();
+  return bits_of(*cells_, task(), total, middle);
 }
 
 Summary Belief::summary() const {

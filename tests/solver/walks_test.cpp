@@ -90,6 +90,31 @@ TEST(Walks, CostNoLessThanTheBestOfAllAndWithAWideBeamLittleMore) {
   EXPECT_LT(sum, 1.05 * least_sum);
 }
 
+/// Out of time a walk is cut short, and nobody hears of it who can do without the rest.
+TEST(Walks, CutShortCanStillBeGone) {
+  constexpr std::size_t beam = 24;
+  Rng rng(4);
+  for (int i = 0; i < 6; ++i) {
+    Walking setting(8, rng);
+    const Pose at = random_place(rng);
+    const solver::Walk whole = setting.walks.best(setting.members, at, beam);
+    EXPECT_EQ(setting.walks.best_in_time(setting.members, at, beam).steps, whole.steps);
+    setting.predictions.time_limit().set(support::TimeLimit::Clock::now());
+    EXPECT_THROW(setting.walks.best(setting.members, at, beam), support::OutOfTime);
+    const solver::Walk walk = setting.walks.best_in_time(setting.members, at, beam);
+    setting.predictions.time_limit().lift();
+    EXPECT_LT(walk.entry, blocked);
+    EXPECT_LT(walk.steps.size(), whole.steps.size());
+    for (std::size_t k = 0; k < walk.steps.size(); ++k) {
+      const Walks::Step& step = setting.walks.step(walk.steps[k].first, walk.steps[k].second);
+      EXPECT_LT(step.cost, blocked);
+      if (k + 1 < walk.steps.size()) {
+        EXPECT_EQ(step.to, walk.steps[k + 1].first);
+      }
+    }
+  }
+}
+
 /// However far off the tool is: no step tells anything then for a while, and a beam that stays near it finds nothing.
 TEST(Walks, TouchNearlyAllPosesFromWhereverTheToolIs) {
   Rng rng(2);
