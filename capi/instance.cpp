@@ -102,3 +102,16 @@ tactus_status tactus_instance_optimum(const tactus_instance* instance, uint64_t 
     *beliefs = exact.beliefs();
   });
 }
+
+tactus_status tactus_instance_bounds(const tactus_instance* instance, uint64_t most_beliefs, double* informed,
+                                     double* pairs) noexcept {
+  return guarded(__func__, [&] {
+    required(informed, "informed"), required(pairs, "pairs");
+    const solver::InstancePtr& is = required(instance, "instance").instance;
+    solver::ExactSolver exact(is, is->discount, most_beliefs);
+    const support::Bitset all(is->weight.size(), true);
+    const auto bound = exact.lower_bound(0, all);
+    *informed = exact.informed(0, all);
+    *pairs = bound.value_or(std::numeric_limits<double>::quiet_NaN());
+  });
+}

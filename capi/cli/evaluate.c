@@ -15,7 +15,7 @@ typedef struct {
   char solver[32];
   uint64_t budget_expansions, seed;
   uint64_t poses, configurations, motions, plans, expansions, beliefs;
-  double discount, expected_cost, worst_cost, inserted, lower_bound, value, optimum, ratio;
+  double discount, expected_cost, worst_cost, inserted, lower_bound, value, informed, pairs, optimum, ratio;
 } evaluation;
 
 static bool failed(const char* what) {
@@ -62,7 +62,8 @@ static bool measure(const instance_options* o, const tactus_scenario* scenario, 
   tactus_evaluation_init(&run, sizeof run);
   if (tactus_instance_evaluate(instance, &planner, &run) != TACTUS_OK) return failed(tactus_last_error());
   fprintf(stderr, "looking for the optimum\n");
-  if (tactus_instance_optimum(instance, o->most_beliefs, &e->optimum, &e->beliefs) != TACTUS_OK)
+  if (tactus_instance_bounds(instance, o->most_beliefs, &e->informed, &e->pairs) != TACTUS_OK ||
+      tactus_instance_optimum(instance, o->most_beliefs, &e->optimum, &e->beliefs) != TACTUS_OK)
     return failed(tactus_last_error());
   e->expected_cost = run.expected_cost;
   e->worst_cost = run.worst_cost;
@@ -86,6 +87,9 @@ static void print_evaluation(FILE* out, const evaluation* e) {
     fprintf(out, "optimum           not computed: more than %" PRIu64 " beliefs\n", e->beliefs - 1);
   else
     fprintf(out, "optimum           %.6f, of %" PRIu64 " beliefs\n", e->optimum, e->beliefs);
+  fprintf(out, "at least          %.6f by what it costs who knows the pose", e->informed);
+  if (!isnan(e->pairs)) fprintf(out, ", %.6f by pairs of poses", e->pairs);
+  fputc('\n', out);
   if (!isnan(e->ratio)) fprintf(out, "cost / optimum    %.4f\n", e->ratio);
   fprintf(out, "at the start      lower bound %.6f, value %.6f, undiscounted\n", e->lower_bound, e->value);
   fprintf(out, "plans             %" PRIu64 ", expansions %" PRIu64 "\n", e->plans, e->expansions);
@@ -96,12 +100,13 @@ static void print_evaluation(FILE* out, const evaluation* e) {
 
 static bool write_json(const char* path, const evaluation* e) {
   static const json_member members[] = {
-      MEMBER(scenario, member_text),        MEMBER(solver, member_text),        MEMBER(budget_expansions, member_whole),
-      MEMBER(seed, member_whole),           MEMBER(discount, member_double),    MEMBER(poses, member_whole),
-      MEMBER(configurations, member_whole), MEMBER(motions, member_whole),      MEMBER(expected_cost, member_double),
-      MEMBER(worst_cost, member_double),    MEMBER(inserted, member_double),    MEMBER(optimum, member_double),
-      MEMBER(ratio, member_double),         MEMBER(lower_bound, member_double), MEMBER(value, member_double),
-      MEMBER(plans, member_whole),          MEMBER(expansions, member_whole),   MEMBER(beliefs, member_whole)};
+      MEMBER(scenario, member_text),        MEMBER(solver, member_text),     MEMBER(budget_expansions, member_whole),
+      MEMBER(seed, member_whole),           MEMBER(discount, member_double), MEMBER(poses, member_whole),
+      MEMBER(configurations, member_whole), MEMBER(motions, member_whole),   MEMBER(expected_cost, member_double),
+      MEMBER(worst_cost, member_double),    MEMBER(inserted, member_double), MEMBER(informed, member_double),
+      MEMBER(pairs, member_double),         MEMBER(optimum, member_double),  MEMBER(ratio, member_double),
+      MEMBER(lower_bound, member_double),   MEMBER(value, member_double),    MEMBER(plans, member_whole),
+      MEMBER(expansions, member_whole),     MEMBER(beliefs, member_whole)};
   FILE* out = strcmp(path, "-") == 0 ? stdout : fopen(path, "w");
   bool good = out != NULL;
   if (good) {

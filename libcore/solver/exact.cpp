@@ -32,6 +32,12 @@ std::optional<double> ExactSolver::lower_bound(std::size_t place, const Bitset& 
   return within_limit([&] { return bound(place, poses); });
 }
 
+double ExactSolver::informed(std::size_t place, const Bitset& poses) const {
+  double sum = 0.0;
+  poses.for_each([&](std::size_t pose) { sum += instance_->weight[pose] * informed_[place][pose]; });
+  return sum / weight_of(*instance_, poses);
+}
+
 /// What was being solved when the limit was passed is half done, and not to be trusted.
 template <typename Solve>
 std::optional<double> ExactSolver::within_limit(Solve&& solve) {
@@ -171,12 +177,6 @@ double ExactSolver::pair_value(std::size_t place, std::size_t a, std::size_t b) 
   pair.set(a);
   pair.set(b);
   return solved(place, pair);
-}
-
-double ExactSolver::informed(std::size_t place, const Bitset& poses) const {
-  double sum = 0.0;
-  poses.for_each([&](std::size_t pose) { sum += instance_->weight[pose] * informed_[place][pose]; });
-  return sum / weight_of(*instance_, poses);
 }
 
 }  // namespace tactus::solver

@@ -23,6 +23,9 @@ class ExactSolver {
   /// The mean of the values of pairs, at most V*; none as above.
   std::optional<double> lower_bound(std::size_t place, const support::Bitset& poses);
 
+  /// What it costs who knows the pose, at most `lower_bound`.
+  double informed(std::size_t place, const support::Bitset& poses) const;
+
   std::size_t beliefs() const { return beliefs_; }  ///< solved, those of single poses not counted
 
  private:
@@ -61,7 +64,6 @@ class ExactSolver {
   double bound(std::size_t place, const support::Bitset& poses);
   double quick_bound(std::size_t place, const support::Bitset& poses);
   double pair_value(std::size_t place, std::size_t a, std::size_t b);
-  double informed(std::size_t place, const support::Bitset& poses) const;
 
   InstancePtr instance_;
   double discount_;

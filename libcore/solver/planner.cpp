@@ -28,6 +28,21 @@ constexpr double with_way = 0.88;         // the same where the ways to motions 
 constexpr double to_weigh_ways = 0.94;    // and the same for those
 constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
 
+/// What a motion was thought to cost all the way, with the way to its start, however far its outcomes go.
+double full_cost(const Choice& choice) {
+  const Outcome& any = choice.outcomes.front();
+  const std::vector<double>& cost_to = choice.motion->cost_to;
+  return any.cost + cost_to.back() - cost_to[std::min(any.waypoint, cost_to.size() - 1)];
+}
+
+/// Probability of meeting something before the motion proper, of a choice that was weighed with the way to it.
+double met_on_the_way(const Choice& choice, const action::Action& made) {
+  double sum = 0.0;
+  for (const Outcome& outcome : choice.outcomes)
+    if (outcome.waypoint <= made.lead) sum += outcome.probability;
+  return sum;
+}
+
 }  // namespace
 
 /// The partial policy of the last planning call, and the action that was handed out from it.
@@ -229,21 +244,6 @@ motion::JointPath Planner::way_off(const belief::Belief& belief, const motion::J
     cost += task.cost(motion::tool_travel(*task.scene().robot, task.scene().tool_link,
                                           {way_back[waypoints - 1], way_back[waypoints]}));
   return {way_back.begin(), way_back.begin() + static_cast<std::ptrdiff_t>(waypoints)};
-}
-
-/// What a motion was thought to cost all the way, with the way to its start, however far its outcomes go.
-double full_cost(const Choice& choice) {
-  const Outcome& any = choice.outcomes.front();
-  const std::vector<double>& cost_to = choice.motion->cost_to;
-  return any.cost + cost_to.back() - cost_to[std::min(any.waypoint, cost_to.size() - 1)];
-}
-
-/// Probability of meeting something before the motion proper, of a choice that was weighed with the way to it.
-double met_on_the_way(const Choice& choice, const action::Action& made) {
-  double sum = 0.0;
-  for (const Outcome& outcome : choice.outcomes)
-    if (outcome.waypoint <= made.lead) sum += outcome.probability;
-  return sum;
 }
 
 /// The way to a choice's motion and the motion, weighed as that turned out. Where the target is likely to be in the

@@ -184,6 +184,7 @@ CHECKED = {
     "tactus_instance_export": [_instance, c_int32, c_void_p, c_size_t, _size],
     "tactus_evaluation_init": [POINTER(EvaluationStruct), c_size_t],
     "tactus_instance_evaluate": [_instance, POINTER(PlannerOptions), POINTER(EvaluationStruct)],
+    "tactus_instance_bounds": [_instance, c_uint64, _doubles, _doubles],
     "tactus_instance_optimum": [_instance, c_uint64, _doubles, POINTER(c_uint64)],
 }
 

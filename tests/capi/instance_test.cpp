@@ -87,6 +87,22 @@ TEST(Instance, APolicyCostsAtLeastTheOptimum) {
   EXPECT_EQ(evaluate(is, planner()).expected_cost, found.expected_cost) << "same options, same policy";
 }
 
+TEST(Instance, TheOptimumIsAtLeastWhatPairsCostAndTheseWhatWhoKnowsPays) {
+  const Instance is = instance();
+  double informed = 0.0, pairs = 0.0, optimum = 0.0;
+  std::uint64_t beliefs = 0;
+  expect_ok(tactus_instance_bounds(is.get(), 1'000'000, &informed, &pairs));
+  expect_ok(tactus_instance_optimum(is.get(), 1'000'000, &optimum, &beliefs));
+  EXPECT_GT(informed, 0.0);
+  EXPECT_GT(pairs, informed + 1e-9) << "there are pairs that have to be told apart";
+  EXPECT_LE(pairs, optimum + 1e-9);
+  double same = 0.0, not_solved = 0.0;
+  expect_ok(tactus_instance_bounds(is.get(), 1, &same, &not_solved));
+  EXPECT_EQ(same, informed);
+  EXPECT_TRUE(std::isnan(not_solved));
+  expect_refused(tactus_instance_bounds(is.get(), 1, &same, nullptr), TACTUS_INVALID_ARGUMENT, "pairs");
+}
+
 TEST(Instance, AnOptimumOfTooManyBeliefsIsNotANumber) {
   double optimum = 0.0;
   std::uint64_t beliefs = 0;

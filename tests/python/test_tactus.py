@@ -134,6 +134,7 @@ def test_an_instance_brackets_a_policy(scenario):
         assert found.inserted == pytest.approx(1.0)
         assert found.lower_bound * 0.9 < instance.optimum() <= found.expected_cost + 1e-9 <= found.worst_cost + 2e-9
         assert np.isnan(instance.optimum(most_beliefs=1))
+        assert 0.0 < instance.bounds()["informed"] < instance.bounds()["pairs"] <= instance.optimum() + 1e-9
         assert "<Discount>0.999" in instance.export() and "discount: 0.999" in instance.export("pomdp")
     with pytest.raises(tactus.InvalidArgument, match="poses"):
         tactus.Instance(scenario, poses=0)

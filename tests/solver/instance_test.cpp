@@ -130,6 +130,7 @@ TEST(ExactSolver, AgreesWithValueIterationOverAllBeliefs) {
       plain.for_each([&](std::size_t place, const Bitset& poses, double value) {
         ASSERT_NEAR(*solver.value(place, poses), value, exact);
         ASSERT_LE(*solver.lower_bound(place, poses), value + exact);
+        ASSERT_LE(solver.informed(place, poses), *solver.lower_bound(place, poses) + exact);
         ++checked;
       });
       EXPECT_GT(checked, 50u);
