@@ -87,8 +87,8 @@ static void print_evaluation(FILE* out, const evaluation* e) {
     fprintf(out, "optimum           not computed: more than %" PRIu64 " beliefs\n", e->beliefs - 1);
   else
     fprintf(out, "optimum           %.6f, of %" PRIu64 " beliefs\n", e->optimum, e->beliefs);
-  fprintf(out, "at least          %.6f by what it costs who knows the pose", e->informed);
-  if (!isnan(e->pairs)) fprintf(out, ", %.6f by pairs of poses", e->pairs);
+  fprintf(out, "at least          %.6f, were the pose known", e->informed);
+  if (!isnan(e->pairs)) fprintf(out, "; %.6f by pairs of poses", e->pairs);
   fputc('\n', out);
   if (!isnan(e->ratio)) fprintf(out, "cost / optimum    %.4f\n", e->ratio);
   fprintf(out, "at the start      lower bound %.6f, value %.6f, undiscounted\n", e->lower_bound, e->value);

@@ -100,10 +100,10 @@ TACTUS_API tactus_status tactus_instance_optimum(const tactus_instance* instance
                                                  double* optimum, uint64_t* beliefs) TACTUS_NOEXCEPT;
 
 /**
- * What no policy can cost less than, by how little is asked. `*informed`: the expected cost of who knows which pose it
- * is. `*pairs`: the mean of the optima of pairs of poses, which is more, and at most the optimum, as V* is concave and
- * a belief is a mixture of its pairs; NAN if more than `most_beliefs` beliefs would have to be solved for it.
- * Discounted as the instance's options say.
+ * Two lower bounds of that optimum. `*informed`: the expected cost if the pose were known. `*pairs`: the mean of the
+ * optima of pairs of poses, which have to be told apart; at least `*informed`, and at most the optimum, as V* is
+ * concave and a belief is a mixture of its pairs. NAN if more than `most_beliefs` beliefs would have to be solved for
+ * it. Discounted as the instance's options say.
  */
 TACTUS_API tactus_status tactus_instance_bounds(const tactus_instance* instance, uint64_t most_beliefs,
                                                 double* informed, double* pairs) TACTUS_NOEXCEPT;

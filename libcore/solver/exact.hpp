@@ -23,7 +23,7 @@ class ExactSolver {
   /// The mean of the values of pairs, at most V*; none as above.
   std::optional<double> lower_bound(std::size_t place, const support::Bitset& poses);
 
-  /// What it costs who knows the pose, at most `lower_bound`.
+  /// The expected cost if the pose were known, at most `lower_bound`.
   double informed(std::size_t place, const support::Bitset& poses) const;
 
   std::size_t beliefs() const { return beliefs_; }  ///< solved, those of single poses not counted

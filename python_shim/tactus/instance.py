@@ -69,8 +69,8 @@ class Instance(Object):
         return optimum.value
 
     def bounds(self, most_beliefs=200_000):
-        """What no policy can cost less than: {"informed", "pairs"}, the expected cost of who knows which pose it is, and the mean of
-        the optima of pairs of poses, which is at most the optimum (V* is concave); NaN if it takes more than so many beliefs."""
+        """Two lower bounds of the optimum, {"informed", "pairs"}: the expected cost if the pose were known, and the mean of the
+        optima of pairs of poses, which have to be told apart (V* is concave); NaN if it takes more than so many beliefs."""
         informed, pairs = ctypes.c_double(), ctypes.c_double()
         call("tactus_instance_bounds", self.handle, most_beliefs, ctypes.byref(informed), ctypes.byref(pairs))
         return {"informed": informed.value, "pairs": pairs.value}
