@@ -65,7 +65,7 @@ TACTUS_API void tactus_belief_destroy(tactus_belief* belief) TACTUS_NOEXCEPT;
  * Some 0.1 s; the first steps of a wide prior 1 to 5 s, in five dimensions more than ten where no table of contact is
  * there yet. Splitting cells, looking into them and proving that the tool is seated end after a counted amount of work
  * of the contact engine, the same on every machine and any number of threads, and go on at the next observation; on one
- * thread single observations were seen to take 10 s in four dimensions and 26 s in five. `belief.threads` shortens
+ * thread single observations were seen to take 12 s in four dimensions and 26 s in five. `belief.threads` shortens
  * that.
  *
  * TACTUS_STOP_OFF_PATH, TACTUS_INVALID_ARGUMENT (a NaN, a wrong number of joints), TACTUS_WRONG_SCENARIO,

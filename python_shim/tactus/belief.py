@@ -82,7 +82,7 @@ class Belief(Object):
 
     def step(self, action, observation):
         """Takes in what the robot reported after it executed ``action``. Some 0.1 s; the first steps of a wide prior some
-        seconds, and late in a task, where it is proved that the tool is seated, up to 10 s in four dimensions and 26 s in
+        seconds, and late in a task, where it is proved that the tool is seated, up to 12 s in four dimensions and 26 s in
         five were seen on one thread (`belief.threads` shortens that).
 
         Raises `StopOffPath`, `InvalidArgument`, `WrongScenario`; then nothing has changed."""

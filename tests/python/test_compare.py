@@ -273,6 +273,22 @@ def test_a_finished_comparison_runs_nothing(shelf, whole, tmp_path):
     assert document["trials"] == whole[1]["trials"]
 
 
+@pytest.mark.parametrize("name", ["sim_5d", "shelf_3d", "sim_5d_poses"])
+def test_kept_results_can_be_gone_on_with(name, tmp_path):
+    kept = (ROOT / "examples" / "results" / f"{name}.json").read_text()
+    path = tmp_path / "kept.json"
+    path.write_text(kept)
+    document = json.loads(kept)
+    count = len(document["trials"])
+    seed = min(trial["seed"] for trial in document["trials"])
+    result = subprocess.run([str(word) for word in (
+        TACTUS, "compare", ROOT / "examples" / "scenarios" / f"{document['scenario']}.yaml", "--solvers", document["solvers"], "--belief",
+        document["belief"], "--phase", document["phase"], "--trials", count // len(document["summary"]), "--seed", seed,
+        "--budget-seconds", document["options"]["budget_seconds"], "--resume", "--json", path)], capture_output=True, text=True, timeout=100)
+    assert result.returncode == 0 and f"{count} of {count} trials are there" in result.stderr
+    assert json.loads(path.read_text())["trials"] == document["trials"]
+
+
 def test_a_comparison_goes_on_with_another_solver(shelf, whole, tmp_path):
     path = tmp_path / "results.json"
     compare(shelf, path, "--solvers", "frontier,rate")
