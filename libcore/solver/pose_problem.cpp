@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "action/insertion.hpp"
 #include "action/near_pokes.hpp"
 #include "action/probes.hpp"
 
@@ -23,7 +22,6 @@ constexpr int lines_per_side = 9;             // as long as nothing was met, and
 constexpr int lines_once_met = 5;             // for then most is told by what is near by
 constexpr std::size_t going_on = 6;           // waypoints of a sweep after the last pose that it touches
 constexpr std::size_t inner_candidates = 2;   // insertion attempts considered below the start
-constexpr std::size_t both_ways = 2;          // attempts that are considered from where the tool is and by the plane
 constexpr std::size_t most_anchored = 24;     // motions that a policy's cost is worked out after
 constexpr std::size_t weighed_carefully = 8;  // choices
 constexpr std::size_t least_walked = 12;      // poses for which a walk is weighed
@@ -31,8 +29,6 @@ constexpr std::size_t most_swept = 150;       // poses for which sweeps are
 constexpr std::size_t each_when_late = 3;     // motions of a kind that are weighed at the start when time is up
 constexpr double latest = 1.05;               // share of a budget in seconds when what is in hand is given up,
 constexpr double latest_walk = 0.6;           // and when a walk is as far laid out as it is
-constexpr double same_seat = 0.0015;          // m between seated poses that one attempt may serve
-constexpr double lever = 0.02;                // m by which a turn counts as a shift there
 
 /// Whether one of some straight moves from the same configuration ends where this one does.
 bool is_among(const Motion& move, const std::vector<MotionPtr>& moves) {
@@ -122,7 +118,7 @@ class PoseState : public BeliefState {
     const std::size_t attempts = at_start_
                                      ? static_cast<std::size_t>(problem_->task_->options().actions.insertion_candidates)
                                      : inner_candidates;
-    kinds.push_back(problem_->insertions(members_, q_, attempts, !at_start_ || has_met));
+    kinds.push_back(problem_->seats_.attempts(members_, q_, attempts, !at_start_ || has_met));
     kinds.push_back(anchored());
     return kinds;
   }
@@ -184,7 +180,7 @@ class PoseState : public BeliefState {
   /// h_ad is the mean cost of going straight to the seats; h_inad adds what the missing bits are worth.
   Values values(const Pose& base_from_tool, const std::vector<std::size_t>& group, bool is_met) const {
     double direct = 0.0;
-    for (const std::size_t pose : group) direct += problem_->direct_cost(base_from_tool, pose);
+    for (const std::size_t pose : group) direct += problem_->seats_.direct_cost(base_from_tool, pose);
     direct /= static_cast<double>(group.size());
     if (problem_->policy_) return {direct, problem_->simulated(group, base_from_tool, is_met, WalkPolicy::quick)};
     const double share =
@@ -232,17 +228,12 @@ PoseProblem::PoseProblem(std::shared_ptr<const action::Task> task, std::shared_p
       library_(std::move(library)),
       predictions_(std::move(predictions)),
       region_(bounds()),
-      plane_(action::retreat_plane(*task_, region_)),
+      seats_(task_, predictions_->poses(), action::retreat_plane(*task_, region_), cancellation()),
       bits_(bits),
       least_cost_per_bit_(cost_per_bit),
       cost_per_bit_(cost_per_bit),
       second_(second),
-      nothing_met_(nothing_met) {
-  for (const Pose& pose : predictions_->poses())
-    for (std::size_t seat = 0; seat < seats(); ++seat) seated_.push_back(task_->scene().seated(pose, seat));
-  for (std::size_t seat = 0; seat < seated_.size(); ++seat) attempts_.push_back(attempt_at(seat));
-  find_neighbours();
-}
+      nothing_met_(nothing_met) {}
 
 void PoseProblem::prepare(const action::Task& task, action::ActionLibrary& library) {
   library.probes_in(task.frame().region, task.scene().start, lines_per_side);
@@ -323,14 +314,13 @@ bool PoseProblem::leads_nowhere(const Motion& motion) const {
 }
 
 const std::vector<MotionPtr>& PoseProblem::anchored(const JointVector& near) {
-  if (!anchored_made_) {
-    const bool are_few = second_ == SecondValue::upper_bound && !nothing_met_;
-    anchored_ = library_->probes_in(region_, near, are_few ? lines_once_met : lines_per_side, cancellation());
-    for (MotionPtr& motion : anchored_)
-      if (motion->kind == action::Kind::sweep) motion = ending_with_contacts(motion);
-  }
-  anchored_made_ = true;
-  return anchored_;
+  if (anchored_) return *anchored_;
+  const bool are_few = second_ == SecondValue::upper_bound && !nothing_met_;
+  std::vector<MotionPtr> probes =
+      library_->probes_in(region_, near, are_few ? lines_once_met : lines_per_side, cancellation());
+  for (MotionPtr& motion : probes)
+    if (motion->kind == action::Kind::sweep) motion = ending_with_contacts(motion);
+  return anchored_.emplace(std::move(probes));
 }
 
 /// Without what it goes on after the last pose that it touches, but for a little.
@@ -345,131 +335,16 @@ MotionPtr PoseProblem::ending_with_contacts(const MotionPtr& motion) {
   return part;
 }
 
-MotionPtr PoseProblem::insertion_at(std::size_t seat, const JointVector& near) {
-  if (const auto found = insertions_.find(seat); found != insertions_.end()) return found->second;
-  const Pose& supposed = predictions_->poses()[seat / seats()];
-  return insertions_[seat] = action::insertion(*task_, supposed, near, seat % seats(), plane_, cancellation());
-}
-
-MotionPtr PoseProblem::near_insertion_at(std::size_t seat, const JointVector& q) {
-  const auto at = std::pair(salt_of(q), seat);
-  if (const auto found = near_insertions_.find(at); found != near_insertions_.end()) return found->second;
-  const Pose& supposed = predictions_->poses()[seat / seats()];
-  return near_insertions_[at] = action::near_insertion(*task_, supposed, q, seat % seats(), cancellation());
-}
-
 /// From where the robot stands at the start, `q`.
 const std::vector<MotionPtr>& PoseProblem::near_pokes(const JointVector& q) {
   if (!near_pokes_) near_pokes_ = action::near_pokes(*task_, q, cancellation());
   return *near_pokes_;
 }
 
-void PoseProblem::find_neighbours() {
-  neighbours_.assign(seated_.size(), Bitset(seated_.size()));
-  for (std::size_t a = 0; a < seated_.size(); ++a) {
-    cancellation().check();
-    for (std::size_t b = 0; b <= a; ++b) {
-      const double shift = (seated_[a].translation() - seated_[b].translation()).norm();
-      if (shift >= same_seat || shift + lever * geometry::angle_between(seated_[a], seated_[b]) >= same_seat) continue;
-      neighbours_[a].set(b);
-      neighbours_[b].set(a);
-    }
-  }
-}
-
-/// Attempts at the seats that have the most others near by, each for a different group of poses; if `nears`, from where
-/// the tool is, and by the retreat plane at the first few, or where it can't get there else. Where several seats of a
-/// pose are as good the nearest counts, and the others if the arm can't get there.
-std::vector<MotionPtr> PoseProblem::insertions(const Bitset& members, const JointVector& q, std::size_t most,
-                                               bool nears) {
-  const std::vector<std::size_t> order = seats_of(members, q);
-  Bitset left(seated_.size());
-  for (const std::size_t seat : order) left.set(seat);
-  std::vector<MotionPtr> found;
-  std::size_t groups = 0;
-  for (std::size_t tries = 0; tries < most * seats() && groups < most && !left.none(); ++tries) {
-    cancellation().check();
-    std::size_t best = 0, densest = 0;
-    for (const std::size_t seat : order) {
-      if (!left.test(seat)) continue;
-      Bitset group = neighbours_[seat];
-      const std::size_t size = (group &= left).count();
-      if (size > densest) densest = size, best = seat;
-    }
-    Bitset served = neighbours_[best];
-    served &= left;
-    left.and_not(served);
-    const MotionPtr near = nears ? near_insertion_at(best, q) : nullptr;
-    const MotionPtr motion = !near || groups < both_ways ? insertion_at(best, q) : nullptr;
-    if (!motion && !near) continue;
-    ++groups;
-    for (const MotionPtr& attempt : {near, motion})
-      if (attempt) found.push_back(attempt);
-    served.for_each([&](std::size_t seat) { left.reset_in(seat - seat % seats(), seat - seat % seats() + seats()); });
-    if (densest <= 1) break;
-  }
-  return found;
-}
-
-/// The seats of some poses, those of each the nearest to the tool first.
-std::vector<std::size_t> PoseProblem::seats_of(const Bitset& members, const JointVector& q) const {
-  const Pose base_from_tool = task_->base_from_tool(q);
-  std::vector<std::size_t> order;
-  members.for_each([&](std::size_t pose) {
-    const auto first = static_cast<std::ptrdiff_t>(order.size());
-    for (std::size_t seat = 0; seat < seats(); ++seat) order.push_back(pose * seats() + seat);
-    std::stable_sort(order.begin() + first, order.end(), [&](std::size_t a, std::size_t b) {
-      return seat_cost(base_from_tool, a) < seat_cost(base_from_tool, b);
-    });
-  });
-  return order;
-}
-
-/// From the retreat plane along the approach axis, as `action::insertion` has it.
-Attempt PoseProblem::attempt_at(std::size_t seat) const {
-  const scene::Scene& scene = task_->scene();
-  const Vector3 axis = predictions_->poses()[seat / seats()].linear() * scene.target.approach_axis;
-  const Pose search_from_base = task_->frame().base_from_search.inverse();
-  const double past_plane = (search_from_base * seated_[seat].translation()).z() - plane_;
-  const double to_plane = std::max(scene.target.approach_depth, past_plane / (search_from_base.linear() * axis).z());
-  Attempt attempt{seated_[seat], seated_[seat], task_->options().cost.metre * to_plane};
-  attempt.base_from_start.translation() -= to_plane * axis;
-  return attempt;
-}
-
 /// Over the anchored motions, with the attempts at each pose's first seat.
 std::unique_ptr<RatePolicy> PoseProblem::rate_policy(const JointVector& q) {
-  std::vector<Attempt> attempts;
-  std::vector<Bitset> served;
-  for (std::size_t pose = 0; pose < predictions_->poses().size(); ++pose) {
-    attempts.push_back(attempts_[pose * seats()]);
-    served.emplace_back(predictions_->poses().size());
-    neighbours_[pose * seats()].for_each([&](std::size_t seat) {
-      if (seat % seats() == 0) served.back().set(seat / seats());
-    });
-  }
-  return std::make_unique<RatePolicy>(task_, *predictions_, anchored(q), std::move(attempts), std::move(served),
-                                      dimensions());
-}
-
-/// Of getting the tool to a seat, the straight way.
-double PoseProblem::seat_cost(const Pose& base_from_tool, std::size_t seat) const {
-  const action::CostWeights& weights = task_->options().cost;
-  const scene::Target& target = task_->scene().target;
-  const double metres = (seated_[seat].translation() - base_from_tool.translation()).norm();
-  const double radians = geometry::angle_between(base_from_tool, seated_[seat]);
-  const double tilted = target.angle_tolerance * target.target_from_seated[seat % seats()].translation().norm();
-  const double tolerance = target.position_tolerance + tilted;
-  return weights.metre * std::max(0.0, metres - tolerance) +
-         weights.radian * std::max(0.0, radians - target.angle_tolerance) + weights.action;
-}
-
-/// The same to the best of a pose's seats.
-double PoseProblem::direct_cost(const Pose& base_from_tool, std::size_t pose) const {
-  double least = seat_cost(base_from_tool, pose * seats());
-  for (std::size_t seat = 1; seat < seats(); ++seat)
-    least = std::min(least, seat_cost(base_from_tool, pose * seats() + seat));
-  return least;
+  return std::make_unique<RatePolicy>(task_, *predictions_, anchored(q), seats_.first_attempts(),
+                                      seats_.served_at_first(), dimensions());
 }
 
 /// The box in the search frame of the target at every pose.

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <optional>
-#include <unordered_map>
 
 #include "action/library.hpp"
 #include "solver/predictions.hpp"
 #include "solver/problem.hpp"
 #include "solver/rate_policy.hpp"
+#include "solver/seats.hpp"
 #include "solver/walk_policy.hpp"
 
 namespace tactus::solver {
@@ -49,31 +48,18 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   std::size_t weighed_late() const;
   void price_bits(std::vector<Choice>& at_start);
   const support::Cancellation& cancellation() const { return predictions_->cancellation(); }
-  std::size_t seats() const { return task_->scene().target.target_from_seated.size(); }
-  void find_neighbours();
   action::MotionPtr ending_with_contacts(const action::MotionPtr& motion);
-  action::MotionPtr insertion_at(std::size_t seat, const robot::JointVector& near);
-  action::MotionPtr near_insertion_at(std::size_t seat, const robot::JointVector& q);
   const std::vector<action::MotionPtr>& near_pokes(const robot::JointVector& q);
-  std::vector<action::MotionPtr> insertions(const support::Bitset& members, const robot::JointVector& q,
-                                            std::size_t most, bool nears);
-  std::vector<std::size_t> seats_of(const support::Bitset& members, const robot::JointVector& q) const;
-  Attempt attempt_at(std::size_t seat) const;
   std::unique_ptr<RatePolicy> rate_policy(const robot::JointVector& q);
   double simulated(const std::vector<std::size_t>& group, const geometry::Pose& base_from_tool, bool is_met,
                    std::size_t beam);
-  double seat_cost(const geometry::Pose& base_from_tool, std::size_t seat) const;
-  double direct_cost(const geometry::Pose& base_from_tool, std::size_t pose) const;
   geometry::Box bounds() const;
 
   std::shared_ptr<const action::Task> task_;
   std::shared_ptr<action::ActionLibrary> library_;
   std::shared_ptr<Predictions> predictions_;
-  geometry::Box region_;                     ///< of the target at all poses, search frame
-  double plane_;                             ///< where anchored motions set out: its retreat plane, search frame
-  std::vector<geometry::Pose> seated_;       ///< tool link, base frame: the seats of the first pose, of the next, ...
-  std::vector<support::Bitset> neighbours_;  ///< by seat: those that one attempt may serve, itself among them
-  std::vector<Attempt> attempts_;            ///< by seat
+  geometry::Box region_;  ///< of the target at all poses, search frame
+  Seats seats_;
   double bits_;
   double least_cost_per_bit_;
   double cost_per_bit_;  ///< of h_inad, from the greedy rate at the start
@@ -81,11 +67,7 @@ class PoseProblem : public std::enable_shared_from_this<PoseProblem> {
   bool nothing_met_;
   std::unique_ptr<RatePolicy> policy_;  ///< once there is a start, if its cost is the second value
   std::unique_ptr<WalkPolicy> walk_;    ///< the same as long as nothing was met; the cheaper of the two counts
-  std::vector<action::MotionPtr> anchored_;
-  bool anchored_made_ = false;
-  std::unordered_map<std::size_t, action::MotionPtr> insertions_;
-  std::map<std::pair<std::uint64_t, std::size_t>, action::MotionPtr> near_insertions_;  ///< by where from, and seat
-  std::optional<std::vector<action::MotionPtr>> near_pokes_;                            ///< from the start
+  std::optional<std::vector<action::MotionPtr>> anchored_, near_pokes_;  ///< the latter from the start
 };
 
 }  // namespace tactus::solver

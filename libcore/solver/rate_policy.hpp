@@ -4,19 +4,9 @@
 #include <unordered_map>
 
 #include "solver/predictions.hpp"
+#include "solver/seats.hpp"
 
 namespace tactus::solver {
-
-/// An insertion attempt at a supposed pose, as far as it need be known to weigh it: over the retreat plane, or from
-/// where the tool is (`near_insertion`).
-struct Attempt {
-  geometry::Pose base_from_start = geometry::Pose::Identity();   ///< of the tool, on the retreat plane
-  geometry::Pose base_from_seated = geometry::Pose::Identity();  ///< of the tool
-  double cost = 0.0;                                             ///< from the one to the other, in units of cost
-  geometry::Vector3 axis() const {
-    return (base_from_seated.translation() - base_from_start.translation()).normalized();
-  }
-};
 
 /// What a simple policy costs that always ends: the motion with the most information per cost, again and again, until
 /// attempts at the poses that are left, one after another, are cheaper. It chooses among anchored motions; where few
