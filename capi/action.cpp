@@ -96,7 +96,9 @@ tactus_status tactus_action_retreat(const tactus_action* action, const tactus_ob
 }
 
 tactus_status tactus_action_save(const tactus_action* action, uint8_t* bytes, size_t capacity, size_t* count) noexcept {
-  return guarded(__func__, [&] { give(action::save(contents(action)), bytes, capacity, count, "bytes"); });
+  return guarded(__func__, [&] {
+    give(action::save(*required(action, "action").scenario->task, contents(action)), bytes, capacity, count, "bytes");
+  });
 }
 
 tactus_status tactus_action_restore(const tactus_scenario* scenario, const uint8_t* bytes, size_t size,

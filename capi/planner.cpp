@@ -37,8 +37,9 @@ tactus_planner_options options_of(const solver::PlannerOptions& from) {
 /// `defaults` with all that the caller may say replaced.
 solver::PlannerOptions options_from(const tactus_planner_options& given, solver::PlannerOptions defaults) {
   if (!is_solver(given.solver)) reject("options.solver", std::to_string(given.solver), "one of TACTUS_SOLVER_*");
-  if (given.horizon < 1 || given.horizon > std::numeric_limits<int>::max())
-    reject("options.horizon", std::to_string(given.horizon), "1 or more");
+  constexpr int farthest = std::numeric_limits<int>::max();
+  if (given.horizon < 1 || given.horizon > farthest)
+    reject("options.horizon", std::to_string(given.horizon), "1 to " + std::to_string(farthest));
   defaults.solver = static_cast<Solver>(given.solver);
   defaults.budget_seconds = given.budget_seconds;
   defaults.budget_expansions = given.budget_expansions;

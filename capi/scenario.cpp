@@ -24,6 +24,16 @@ const belief::CellTables& tables_of(const tactus_scenario* scenario) {
   return *required(scenario, "scenario").contents->model->options.cells.tables;
 }
 
+/// Beliefs check what they are given themselves; drawing does not.
+robot::JointVector finite_joints_from(const double* q, const robot::RobotModel& robot) {
+  const robot::JointVector joints = joints_from(q, robot.dof(), "q");
+  for (int j = 0; j < robot.dof(); ++j)
+    if (!std::isfinite(joints[j]))
+      reject("q[" + std::to_string(j) + "] (" + robot.joints[j].name + ")", "a value that is not finite",
+             "a joint position");
+  return joints;
+}
+
 std::string joined_lines(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
@@ -179,8 +189,8 @@ tactus_status tactus_scenario_body_poses(const tactus_scenario* scenario, const 
                                          double* poses, size_t capacity, size_t* count) noexcept {
   return guarded(__func__, [&] {
     const robot::RobotModel& robot = *required(scenario, "scenario").scene().robot;
-    const auto placed = body_poses(scenario->bodies, robot, joints_from(q, robot.dof(), "q"),
-                                   capi::pose_from(target_pose, "target_pose"));
+    const auto placed =
+        body_poses(scenario->bodies, robot, finite_joints_from(q, robot), capi::pose_from(target_pose, "target_pose"));
     if (double* out = room_for(placed.size(), poses, capacity, count, "poses"))
       for (std::size_t b = 0; b < placed.size(); ++b) write_pose(placed[b], out + 7 * b);
   });

@@ -180,13 +180,15 @@ static tactus_status step(episode* e) {
   return status;
 }
 
-static void loop(episode* e) {
+static tactus_status loop(episode* e) {
+  tactus_status status = TACTUS_OK;
   e->result->ended = end_reached(e);
   while (e->result->ended == trial_goes_on) {
-    const tactus_status status = step(e);
+    status = step(e);
     e->result->ended = status == TACTUS_OK ? end_reached(e) : ending(e, status);
   }
   if (measure(e) != TACTUS_OK || measure_end(e) != TACTUS_OK) e->result->ended = ending(e, TACTUS_INTERNAL);
+  return status;
 }
 
 /* --- a trial */
@@ -232,7 +234,7 @@ static void init_result(trial_result* result, uint64_t seed, const double true_p
   result->truth_kept = true;
   result->poses_lower_bound = result->poses_value = NAN;
   result->position_error_m = result->angle_error_rad = NAN;
-  result->voxels = (effort){NAN, NAN, NAN, NAN, NAN, NAN};
+  result->voxels = unknown_effort;
 }
 
 static void init_episode(episode* e, const trial_setup* setup, const trial_course* course, trial_result* result) {
@@ -246,15 +248,37 @@ static void init_episode(episode* e, const trial_setup* setup, const trial_cours
   tactus_observation_init(&e->observation, sizeof e->observation);
 }
 
+static void keep_belief(episode* e) {
+  head_start* kept = e->course->keep;
+  kept->failed = e->result->ended == trial_failed;
+  if (e->result->ended != trial_at_hand_over) return;
+  kept->belief = e->belief;
+  e->belief = NULL;
+}
+
 static void end(episode* e) {
   record_end(e->record, e->result->inserted);
-  if (e->course->keep != NULL && e->result->ended == trial_at_hand_over) {
-    e->course->keep->belief = e->belief;
-    e->belief = NULL;
-  }
+  if (e->course->keep != NULL) keep_belief(e);
   tactus_planner_destroy(e->planner);
   tactus_belief_destroy(e->belief);
   tactus_world_destroy(e->world);
+}
+
+static void end_unbegun(trial_result* result, trial_end why) {
+  result->ended = why;
+  if (why == trial_failed) result->whole = unknown_effort;
+}
+
+/* An argument that is wrong is the command line's, and every trial has it. */
+static bool play(episode* e) {
+  const tactus_status begun = e->observation.joints != NULL ? begin(e) : TACTUS_OUT_OF_MEMORY;
+  if (begun != TACTUS_OK) {
+    end_unbegun(e->result, ending(e, begun));
+    return begun != TACTUS_OUT_OF_MEMORY && begun != TACTUS_INVALID_ARGUMENT;
+  }
+  if (begin_recording(e)) return loop(e) != TACTUS_OUT_OF_MEMORY;
+  fprintf(stderr, "tactus: seed %" PRIu64 ": --record: %s\n", e->result->seed, tactus_last_error());
+  return false;
 }
 
 bool run_trial(const trial_setup* setup, uint64_t seed, const double true_pose[7], const trial_course* course,
@@ -263,17 +287,13 @@ bool run_trial(const trial_setup* setup, uint64_t seed, const double true_pose[7
   init_result(result, seed, true_pose);
   init_episode(&e, setup, course, result);
   if (course->from != NULL && course->from->belief == NULL) {
-    result->ended = trial_without_hand_over;
+    end_unbegun(result, course->from->failed ? trial_failed : trial_without_hand_over);
     return true;
   }
   double* joints = malloc(setup->dof * sizeof *joints);
   e.observation.joints = joints;
   e.observation.joint_count = setup->dof;
-  const bool good = joints != NULL && begin(&e) == TACTUS_OK && begin_recording(&e);
-  if (good)
-    loop(&e);
-  else
-    fprintf(stderr, "tactus: seed %" PRIu64 ": %s: %s\n", seed, solver_name(&e), tactus_last_error());
+  const bool good = play(&e);
   end(&e);
   free(joints);
   return good;

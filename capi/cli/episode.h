@@ -24,6 +24,7 @@ typedef struct {
   tactus_belief* belief;   /* NULL if there was no hand-over */
   tactus_action** actions; /* count of them, room for `room` */
   int count, room;
+  bool failed; /* the trial that was to lead to it */
 } head_start;
 
 void free_head_start(head_start* start);
@@ -37,7 +38,7 @@ typedef struct {
 } trial_course;
 
 /* One trial: `seed` is the planner's and the world's, the target is at `true_pose`. What it costs to get to where it
- * begins does not count. Progress goes to stderr. False if there could be no trial: stderr says why. */
+ * begins does not count. Progress goes to stderr, and why a trial failed. False if no other trial could do better. */
 bool run_trial(const trial_setup* setup, uint64_t seed, const double true_pose[7], const trial_course* course,
                trial_result* result);
 

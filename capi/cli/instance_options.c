@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "options.h"
+
 const char* const instance_usage =
     "\n"
     "options of export and evaluate:\n"
@@ -103,7 +105,7 @@ bool parse_instance_options(const char* command, int argc, char** argv, instance
                         {"--most-beliefs", "evaluate", NULL, NULL, &o->most_beliefs, NULL}};
   for (int i = 0; i < argc; ++i) {
     const char* name = argv[i];
-    if (strncmp(name, "--", 2) != 0) {
+    if (!is_option(name)) {
       if (o->scenario != NULL) return complain(command, name, "expected one scenario only");
       o->scenario = name;
       continue;
@@ -111,7 +113,7 @@ bool parse_instance_options(const char* command, int argc, char** argv, instance
     const option* found = find(all, sizeof all / sizeof all[0], command, name);
     if (found == NULL) return complain(command, name, "unknown option, see tactus --help");
     if (++i == argc) return complain(command, name, "expected a value");
-    const char* expected = take(found, argv[i]);
+    const char* expected = is_option(argv[i]) ? "a value" : take(found, argv[i]);
     if (expected != NULL) {
       fprintf(stderr, "tactus %s: %s: found '%s', expected %s\n", command, name, argv[i], expected);
       return false;

@@ -36,7 +36,7 @@ const char* const usage =
     "  --tables FILE              tables of contact: taken in if FILE is there, and saved at the end for the next "
     "start\n"
     "  --resume                   run only the trials that FILE does not have; its others must be of the same options\n"
-    "                             (to compare, with more solvers than before too)\n"
+    "                             and scenario (to compare, with more solvers too, unless with --phase poses)\n"
     "\n"
     "of run alone:\n"
     "  --solver NAME              rtdp-bel, rtdp-inad, rtdp-ad, brtdp-bel, tbl, frontier or rate (the scenario's)\n"
@@ -49,9 +49,9 @@ const char* const usage =
     "they\n"
     "                             begin there, every solver with the belief to which the first solver has come\n"
     "\n"
-    "Progress goes to stderr, results to stdout. Exit status: 0 all inserted (with --phase voxels: all came to poses), "
-    "1\n"
-    "some were not, 2 usage or scenario error.\n";
+    "Progress goes to stderr, results to stdout. Exit status: 0 all inserted (with --phase voxels: all came to "
+    "poses),\n"
+    "1 some were not, or failed, 2 usage or scenario error.\n";
 
 static bool read_count(const char* text, uint64_t low, uint64_t high, uint64_t* value) {
   char* end = NULL;
@@ -150,6 +150,8 @@ static const char* take(const char* name, const char* value, trial_options* opti
   return NULL;
 }
 
+bool is_option(const char* word) { return strncmp(word, "--", 2) == 0; }
+
 /* Whether the command has this option. */
 static bool has_option(const char* command, const char* name) {
   static const struct {
@@ -184,7 +186,7 @@ static bool complain(const char* command, const char* about, const char* what) {
 static bool take_next(const char* command, const char* name, const char* value, trial_options* options) {
   if (!has_option(command, name)) return complain(command, name, "unknown option, see tactus --help");
   if (value == NULL) return complain(command, name, "expected a value");
-  const char* expected = take(name, value, options);
+  const char* expected = is_option(value) ? "a value" : take(name, value, options);
   if (expected == NULL) return true;
   fprintf(stderr, "tactus %s: %s: found '%s', expected %s\n", command, name, value, expected);
   return false;
@@ -197,6 +199,8 @@ static bool make_sense(const char* command, const trial_options* options) {
     return complain(command, "--resume", "expected --json and a file that keeps the trials");
   if (options->resume && options->record != NULL)
     return complain(command, "--record", "expected no --resume, with which the first trial may not be run");
+  if (options->json != NULL && options->record != NULL && strcmp(options->json, options->record) == 0)
+    return complain(command, "--record", "found what --json writes to, expected another file: each is one document");
   return true;
 }
 
@@ -206,7 +210,7 @@ bool parse_options(const char* command, int argc, char** argv, trial_options* op
   options->seed = 1;
   options->stopping_distance = options->encoder_error = options->missed_contacts = options->false_contacts = -1.0;
   for (int i = 0; i < argc; ++i) {
-    const bool is_scenario = strncmp(argv[i], "--", 2) != 0;
+    const bool is_scenario = !is_option(argv[i]);
     if (is_scenario && options->scenario != NULL) return complain(command, argv[i], "expected one scenario only");
     if (is_scenario)
       options->scenario = argv[i];

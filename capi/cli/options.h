@@ -35,6 +35,8 @@ typedef struct {
 
 extern const char* const usage;
 
+bool is_option(const char* word); /* not a value: begins with -- */
+
 /* Reads what follows `tactus` and the command. On a mistake says what is wrong on stderr and returns false. */
 bool parse_options(const char* command, int argc, char** argv, trial_options* options);
 

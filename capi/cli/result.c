@@ -17,6 +17,8 @@ const char* trial_phase_name(trial_phase phase) {
   return names[phase];
 }
 
+const effort unknown_effort = {NAN, NAN, NAN, NAN, NAN, NAN};
+
 void add_effort(effort* sum, const effort* other, double times) {
   sum->cost_m += times * other->cost_m;
   sum->travel_m += times * other->travel_m;
@@ -76,23 +78,43 @@ static double median_certificate(const run_result* run) {
   return median;
 }
 
+static bool could_begin(const trial_result* trial) { return !isnan(trial->whole.cost_m); }
+
+static void count_trials(const run_result* run, run_summary* sum) {
+  sum->trials = run->count;
+  for (int i = 0; i < run->count; ++i) {
+    const trial_result* trial = &run->trials[i];
+    sum->inserted += trial->inserted;
+    sum->truth_kept += trial->truth_kept;
+    sum->begun += could_begin(trial);
+    sum->late_plans += trial->late_plans;
+    sum->slowest_planning_s = fmax(sum->slowest_planning_s, trial->slowest_planning_s);
+    sum->slowest_step_s = fmax(sum->slowest_step_s, trial->slowest_step_s);
+  }
+}
+
+static void set_means(const run_result* run, run_summary* sum) {
+  if (sum->begun == 0) {
+    sum->mean = unknown_effort;
+    sum->contacts = sum->expansions = sum->stepping_s = NAN;
+    return;
+  }
+  const double share = 1.0 / sum->begun;
+  for (int i = 0; i < run->count; ++i) {
+    const trial_result* trial = &run->trials[i];
+    if (!could_begin(trial)) continue;
+    sum->contacts += share * trial->contacts;
+    sum->expansions += share * (double)trial->expansions;
+    sum->stepping_s += share * trial->stepping_s;
+    add_effort(&sum->mean, &trial->whole, share);
+  }
+}
+
 run_summary summarise(const run_result* run) {
   run_summary sum;
   memset(&sum, 0, sizeof sum);
-  sum.trials = run->count;
-  for (int i = 0; i < run->count; ++i) {
-    const trial_result* trial = &run->trials[i];
-    const double share = 1.0 / run->count;
-    sum.inserted += trial->inserted;
-    sum.truth_kept += trial->truth_kept;
-    sum.contacts += share * trial->contacts;
-    sum.expansions += share * (double)trial->expansions;
-    add_effort(&sum.mean, &trial->whole, share);
-    sum.slowest_planning_s = fmax(sum.slowest_planning_s, trial->slowest_planning_s);
-    sum.late_plans += trial->late_plans;
-    sum.stepping_s += share * trial->stepping_s;
-    sum.slowest_step_s = fmax(sum.slowest_step_s, trial->slowest_step_s);
-  }
+  count_trials(run, &sum);
+  set_means(run, &sum);
   sum.certificate = median_certificate(run);
   return sum;
 }

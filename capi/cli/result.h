@@ -28,7 +28,7 @@ typedef enum { phase_whole, phase_voxels, phase_poses, phase_count } trial_phase
 
 const char* trial_phase_name(trial_phase phase); /* as options and results have it */
 
-/* What adds up in a trial. NAN where it does not apply. */
+/* What adds up in a trial. NAN where it does not apply, as in a trial that could not begin. */
 typedef struct {
   double cost_m;       /* with the scenario's weights */
   double travel_m;     /* of the tool frame, retreats included */
@@ -37,6 +37,8 @@ typedef struct {
   double planner_calls; /* queries that planned */
   double planning_s;    /* what these took */
 } effort;
+
+extern const effort unknown_effort; /* all NAN */
 
 void add_effort(effort* sum, const effort* other, double times);
 
@@ -75,6 +77,10 @@ typedef struct {
   uint64_t budget_expansions;
   double true_pose[6]; /* x y z roll pitch yaw, if it is not drawn */
   double stopping_distance, encoder_error, missed_contacts, false_contacts;
+  bool has_terms; /* what follows, which the scenario says; results of earlier versions do not have it */
+  double cost_metre, cost_radian, cost_action;
+  int limit_actions;
+  double limit_travel, limit_seconds;
 } run_setting;
 
 /* The trials of a run that are done, in the order of their seeds. */
@@ -87,9 +93,9 @@ typedef struct {
 const trial_result* find_trial(const run_result* run, uint64_t seed); /* NULL if there is none */
 bool add_trial(run_result* run, const trial_result* trial);           /* false if out of memory */
 
-/* How many trials there are, were inserted, kept the truth; and means over all of them. */
+/* How many trials there are, were inserted, kept the truth, could begin; and means over these, NAN if none could. */
 typedef struct {
-  int trials, inserted, truth_kept;
+  int trials, inserted, truth_kept, begun;
   effort mean;
   double contacts, expansions;
   double slowest_planning_s;

@@ -27,6 +27,15 @@ static const json_member options[] = {
     {"false_contacts", member_double, offsetof(run_setting, false_contacts), 0},
 };
 
+static const json_member terms[] = {
+    {"cost_metre", member_double, offsetof(run_setting, cost_metre), 0},
+    {"cost_radian", member_double, offsetof(run_setting, cost_radian), 0},
+    {"cost_action", member_double, offsetof(run_setting, cost_action), 0},
+    {"limit_actions", member_int, offsetof(run_setting, limit_actions), 0},
+    {"limit_travel", member_double, offsetof(run_setting, limit_travel), 0},
+    {"limit_seconds", member_double, offsetof(run_setting, limit_seconds), 0},
+};
+
 static const json_member of_trial[] = {
     {"seed", member_whole, offsetof(trial_result, seed), 0},
     {"true_pose", member_doubles, offsetof(trial_result, true_pose), 7},
@@ -80,7 +89,11 @@ void print_trial(FILE* out, const trial_result* trial) { json_members(out, trial
 
 void print_trial_end(FILE* out, const trial_result* trial) { json_text(out, trial_end_name(trial->ended)); }
 
-void print_options(FILE* out, const run_setting* setting) { json_members(out, setting, options, COUNT(options), ", "); }
+void print_options(FILE* out, const run_setting* setting) {
+  json_members(out, setting, options, COUNT(options), ", ");
+  fputs(", ", out);
+  json_members(out, setting, terms, COUNT(terms), ", ");
+}
 
 static void print_trials(FILE* out, const run_result* run) {
   fputs("  \"trials\": [", out);
@@ -135,7 +148,9 @@ bool read_trial_end(json_reader* reader, trial_result* trial) {
 }
 
 bool read_options(json_reader* reader, run_setting* setting) {
-  return json_read_members(reader, setting, options, COUNT(options));
+  if (!json_read_members(reader, setting, options, COUNT(options))) return false;
+  setting->has_terms = json_next(reader, ",");
+  return !setting->has_terms || json_read_members(reader, setting, terms, COUNT(terms));
 }
 
 bool take_trial(json_reader* reader, const trial_result* trial, run_result* run) {
@@ -217,7 +232,11 @@ static bool same_members(const run_setting* found, const run_setting* expected, 
 }
 
 bool same_setting(const run_setting* found, const run_setting* expected, setting_difference* difference) {
-  return same_members(found, expected, names, COUNT(names), difference) &&
-         same_members(found, expected, phase, COUNT(phase), difference) &&
-         same_members(found, expected, options, COUNT(options), difference);
+  difference->said_by = "asked for";
+  if (!same_members(found, expected, names, COUNT(names), difference) ||
+      !same_members(found, expected, phase, COUNT(phase), difference) ||
+      !same_members(found, expected, options, COUNT(options), difference))
+    return false;
+  difference->said_by = "the scenario has it";
+  return !found->has_terms || same_members(found, expected, terms, COUNT(terms), difference);
 }

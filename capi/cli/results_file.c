@@ -2,13 +2,10 @@
 #include "results_file.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include "result_json.h"
 
 bool is_stdout(const char* path) { return path != NULL && strcmp(path, "-") == 0; }
 
@@ -104,29 +101,4 @@ bool load_results(const results_file* file) {
   const bool loaded = text == NULL || read_results(file, (const char*)text);
   free(text);
   return loaded;
-}
-
-/* --- taking over */
-
-bool settings_agree(const char* path, const run_setting* found, const run_setting* expected) {
-  setting_difference difference;
-  if (same_setting(found, expected, &difference)) return true;
-  fprintf(stderr,
-          "tactus: %s: found trials with %s %s, expected %s as asked for now; ask for the same to go on with them, "
-          "or write to another file\n",
-          path, difference.name, difference.found, difference.expected);
-  return false;
-}
-
-bool seeds_belong(const char* path, const run_result* run, uint64_t first, int count) {
-  for (int i = 0; i < run->count; ++i) {
-    const uint64_t seed = run->trials[i].seed;
-    if (seed - first < (uint64_t)count) continue;
-    fprintf(stderr,
-            "tactus: %s: found a trial of seed %" PRIu64 ", expected %d seeds from %" PRIu64
-            " on; ask for it too, or write to another file\n",
-            path, seed, count, first);
-    return false;
-  }
-  return true;
 }

@@ -3,7 +3,6 @@
 #define TACTUS_CLI_RESULTS_FILE_H
 
 #include "json_reader.h"
-#include "result.h"
 
 /* Results in a file that is whole at every moment. False: stderr says why. */
 
@@ -40,9 +39,5 @@ bool is_stdout(const char* path);
 /* NULL if it can't be. */
 FILE* open_for_writing(const char* path);
 bool close_written(FILE* file); /* NULL is legal */
-
-/* Whether what was loaded from `path` has this setting; or, of a run, is of `count` seeds from `first` on. */
-bool settings_agree(const char* path, const run_setting* found, const run_setting* expected);
-bool seeds_belong(const char* path, const run_result* run, uint64_t first, int count);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "result_json.h"
+#include "resume.h"
 #include "setup.h"
 #include "tables.h"
 #include "trials.h"
@@ -31,7 +32,7 @@ static int report(const run* r, const results_file* file) {
 static bool take_over(run* r, const run_setting* setting) {
   const trial_options* o = &r->options;
   if (r->result.count > 0 &&
-      !(settings_agree(o->json, &r->result.setting, setting) && seeds_belong(o->json, &r->result, o->seed, o->trials)))
+      !(settings_agree(o, &r->result.setting, setting) && trials_belong(o, r->setup.scenario, &r->result)))
     return false;
   if (o->resume) fprintf(stderr, "%s: %d of %d trials are there\n", o->json, r->result.count, o->trials);
   return true;
@@ -46,8 +47,10 @@ static int run_all(run* r) {
   r->result.setting = setting;
   if (!open_record(r)) return exit_usage;
   const campaign all = {o, &r->setup.trial, &r->result, 1, r->record, &file};
-  if (!save_results(&file) || !run_trials(&all) || !save_tables(o->tables, r->setup.scenario)) return exit_usage;
-  return report(r, &file);
+  if (!save_results(&file)) return exit_usage;
+  const bool ran = run_trials(&all), kept = save_tables(o->tables, r->setup.scenario);
+  const int reported = report(r, &file);
+  return ran && kept ? reported : exit_usage;
 }
 
 int run_command(int argc, char** argv) {

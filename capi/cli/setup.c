@@ -59,6 +59,16 @@ void free_setup(loaded_setup* setup) {
   tactus_scenario_destroy(setup->scenario);
 }
 
+static void set_terms(const trial_setup* trial, run_setting* setting) {
+  setting->has_terms = true;
+  setting->cost_metre = trial->costs.metre;
+  setting->cost_radian = trial->costs.radian;
+  setting->cost_action = trial->costs.action;
+  setting->limit_actions = trial->limits.actions;
+  setting->limit_travel = trial->limits.travel;
+  setting->limit_seconds = trial->limits.seconds;
+}
+
 static double or_nan(bool given, double value) { return given ? value : (double)NAN; }
 
 run_setting setting_of(const trial_options* options, const loaded_setup* setup) {
@@ -79,5 +89,6 @@ run_setting setting_of(const trial_options* options, const loaded_setup* setup) 
   setting.encoder_error = or_nan(options->encoder_error >= 0.0, options->encoder_error);
   setting.missed_contacts = or_nan(options->missed_contacts >= 0.0, options->missed_contacts);
   setting.false_contacts = or_nan(options->false_contacts >= 0.0, options->false_contacts);
+  set_terms(&setup->trial, &setting);
   return setting;
 }

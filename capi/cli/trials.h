@@ -17,8 +17,8 @@ typedef struct {
 } campaign;
 
 /* Runs the trials that the results do not have yet, `options->jobs` at a time, adds them and saves the file after each.
- * Trials of the phase of poses begin where the first solver comes to the hand-over. False if a trial could not be run
- * or saved: stderr says why, the results have those that were. */
+ * Trials of the phase of poses begin where the first solver comes to the hand-over. A trial that fails is one
+ * of the results. False if no trial could be run, or one not saved: stderr says why, the results have the others. */
 bool run_trials(const campaign* all);
 
 #endif

@@ -57,16 +57,18 @@ HEAD = """| setting | trials | inserted | true pose kept | cost mean | median | 
 
 
 def row(name, trials):
-    def mean(key):
-        return statistics.mean(trial[key] for trial in trials)
+    begun = [trial for trial in trials if trial["cost_m"] is not None]
+
+    def number(of, key, digits):
+        return f"{of(trial[key] for trial in begun):.{digits}f}" if begun else "-"
 
     def share(key):
         count = sum(trial[key] for trial in trials)
         return f"{count} ({100 * count / len(trials):.1f} %)"
 
-    costs = [trial["cost_m"] for trial in trials]
-    return (f"| {name} | {len(trials)} | {share('inserted')} | {share('truth_kept')} | {mean('cost_m'):.2f} | {statistics.median(costs):.2f} | "
-            f"{max(costs):.2f} | {mean('actions'):.1f} | {mean('planner_calls'):.1f} | {mean('planning_s'):.1f} |\n")
+    costs = " | ".join(number(of, "cost_m", 2) for of in (statistics.mean, statistics.median, max))
+    means = " | ".join(number(statistics.mean, key, 1) for key in ("actions", "planner_calls", "planning_s"))
+    return f"| {name} | {len(trials)} | {share('inserted')} | {share('truth_kept')} | {costs} | {means} |\n"
 
 
 def legend(setting, run):

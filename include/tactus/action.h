@@ -55,8 +55,9 @@ typedef struct tactus_action_properties {
   double length;              /**< m that the tool frame goes if nothing is touched */
   double duration;            /**< s that it takes then */
   double full_cost;           /**< of going all the way */
-  double expected_cost;       /**< as the planner saw it */
-  double contact_probability; /**< as the planner saw it */
+  double expected_cost;       /**< of it and of all that follows, as the planner saw it: until the goal, on voxels until
+                                   the hand-over to poses */
+  double contact_probability; /**< that it touches the target, as the planner saw it */
 } tactus_action_properties;
 
 /** Sets `struct_size` to `size`, which is `sizeof *properties`, and everything else to 0. */
@@ -85,8 +86,8 @@ TACTUS_API tactus_status tactus_action_times(const tactus_action* action, double
 /**
  * The index of the waypoint to which the robot goes back after this observation: the last one that is certainly free.
  * After a contact go back along the path to there; that is where `tactus_belief_step` takes the robot to be. Without a
- * contact it is the last waypoint that the robot passed, and the robot stays where it is. Actions that are planned for a
- * belief whose observations contradict each other have it go back farther: the robot may travel on after contacts.
+ * contact it is the last waypoint that the robot passed, and the robot stays where it is. Actions that are planned for
+ * a belief whose observations contradict each other have it go back farther: the robot may travel on after contacts.
  *
  * TACTUS_INVALID_ARGUMENT (a NaN, a wrong number of joints), TACTUS_STOP_OFF_PATH, TACTUS_STRUCT_SIZE.
  */

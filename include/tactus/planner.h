@@ -46,7 +46,7 @@ typedef struct tactus_planner_options {
   double budget_seconds;      /**< for a query; INFINITY: none. > 0 */
   uint64_t budget_expansions; /**< for a query; 0: none */
   double epsilon;             /**< share of the budget in which the admissible values lead (rtdp-bel); in [0, 1] */
-  int64_t horizon;            /**< actions looked ahead; > 0 */
+  int64_t horizon;            /**< actions looked ahead; 1 to 2147483647 */
   uint64_t seed;              /**< of all that is random */
 } tactus_planner_options;
 
@@ -86,14 +86,17 @@ TACTUS_API tactus_status tactus_planner_query_action(tactus_planner* planner, co
  */
 TACTUS_API tactus_status tactus_planner_cancel(tactus_planner* planner) TACTUS_NOEXCEPT;
 
-/** What the last query took, and (total) all of them since the planner was created. */
+/**
+ * What the last query took, and (total) all of them since the planner was created. `lower_bound` and `value` are of the
+ * belief for which the last action was handed out, 0 before: a query that hands out none leaves them as they are.
+ */
 typedef struct tactus_statistics {
   uint32_t struct_size;
   int32_t from_policy;  /**< 1: the action was computed by an earlier query */
-  uint64_t expansions;  /**< of the last query that planned */
-  double seconds;       /**< of the last query */
-  double lower_bound;   /**< admissible value at the belief, in units of cost */
-  double value;         /**< inadmissible value at the belief, in units of cost */
+  uint64_t expansions;  /**< 0 if it did not plan */
+  double seconds;       /**< 0 if it did not plan */
+  double lower_bound;   /**< admissible value of that belief, in units of cost */
+  double value;         /**< inadmissible value of that belief, in units of cost */
   uint64_t total_calls; /**< queries that planned */
   uint64_t total_expansions;
   double total_seconds;

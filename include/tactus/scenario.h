@@ -29,7 +29,7 @@ typedef struct tactus_scenario tactus_scenario;
  */
 TACTUS_API tactus_status tactus_scenario_load(const char* path, tactus_scenario** scenario) TACTUS_NOEXCEPT;
 
-/** The same from text; its paths are relative to `base_dir`. Errors as for `tactus_scenario_load`. */
+/** The same from text; its paths are relative to `base_dir`, "": to where the process is. Errors as for loading. */
 TACTUS_API tactus_status tactus_scenario_parse(const char* yaml, const char* base_dir,
                                                tactus_scenario** scenario) TACTUS_NOEXCEPT;
 
@@ -156,6 +156,8 @@ TACTUS_API tactus_status tactus_scenario_body_triangles(const tactus_scenario* s
 /**
  * Where the bodies are in the robot's base frame when the robot is at `q`, double (dof), and the target at
  * `target_pose`, double (7). `poses`: double (count x 7), one row a body.
+ *
+ * TACTUS_INVALID_ARGUMENT (a NaN, a quaternion whose norm is not 1), TACTUS_BUFFER_TOO_SMALL.
  */
 TACTUS_API tactus_status tactus_scenario_body_poses(const tactus_scenario* scenario, const double* q,
                                                     const double target_pose[7], double* poses, size_t capacity,

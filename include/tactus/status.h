@@ -91,8 +91,8 @@ TACTUS_API const char* tactus_status_name(tactus_status status) TACTUS_NOEXCEPT;
 
 /**
  * What was wrong with the last call in this thread that failed: the function, the argument or file:line, what was found
- * and what was expected. UTF-8, never NULL, "" before the first failure. Valid until the next call in this thread
- * fails.
+ * and what was expected. UTF-8 as far as the names of files and the arguments in it are. Never NULL, "" before the
+ * first failure. Valid until the next call in this thread fails.
  */
 TACTUS_API const char* tactus_last_error(void) TACTUS_NOEXCEPT;
 

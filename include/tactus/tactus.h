@@ -9,12 +9,13 @@
  *     tactus_scenario_load("shelf.yaml", &scenario);
  *     tactus_belief_create(scenario, NULL, start, &belief);
  *     tactus_planner_create(scenario, NULL, &planner);
- *     while (tactus_planner_query_action(planner, belief, &action) == TACTUS_OK) {
+ *     while ((status = tactus_planner_query_action(planner, belief, &action)) == TACTUS_OK) {
  *       ... execute the action guarded, stop at the first contact, note it in `observation` ...
  *       tactus_belief_step(belief, action, &observation);
  *       ... after a contact go back to the waypoint that `tactus_action_retreat` names ...
  *       tactus_action_destroy(action);
  *     }
+ *     if (status >= 100) puts(tactus_last_error());   // below 100: the goal is reached, or nothing is worth trying
  *
  * This header includes all others; what holds for every function is said in `status.h`.
  */

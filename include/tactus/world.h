@@ -19,13 +19,14 @@ typedef struct tactus_world tactus_world;
 
 typedef struct tactus_world_options {
   uint32_t struct_size;
-  int32_t fineness; /**< contacts are looked for at so many times finer steps than an action's waypoints; > 0 */
+  int32_t fineness; /**< contacts are looked for at so many times finer steps than an action's waypoints, and no longer
+                         ones than the scenario's stop tolerance; > 0 */
   uint64_t seed;    /**< of what chance decides: the same seed and the same actions give the same observations */
   /* What the robot really does, whatever the scenario's key of that name says; negative: what it says. */
   double stopping_distance; /**< m that a point of the robot may travel on after the first contact */
-  double encoder_error;     /**< m by which the reported joints may put a point of the robot off */
-  double missed_contacts;   /**< share of motions in which a contact is not felt, at most 0.5 */
-  double false_contacts;    /**< share of motions that are stopped by a contact that is none, at most 0.5 */
+  double encoder_error;     /**< m by which the reported joints may put a point of the robot off, its tool included */
+  double missed_contacts;   /**< share of motions in which no contact is felt, to their ends; at most 0.5 */
+  double false_contacts;    /**< share of motions that are stopped by a contact that was none; at most 0.5 */
 } tactus_world_options;
 
 /** Sets `struct_size` to `size`, which is `sizeof *options`, and the rest to the library's defaults. */

@@ -16,7 +16,7 @@ struct Action {
   std::size_t lead = 0;              ///< waypoints before the motion proper: the way over the retreat plane
   double length = 0.0;               ///< m that the tool frame goes if nothing is touched
   double full_cost = 0.0;            ///< of going all the way
-  double expected_cost = 0.0;        ///< as the planner saw it
+  double expected_cost = 0.0;        ///< of it and all that follows, as the planner saw it
   double contact_probability = 0.0;  ///< as the planner saw it
   Sensing sensing;                   ///< what is taken for possible of the robot, and decides where its contact may be
   Pose supposed_target = Pose::Identity();

@@ -2,7 +2,9 @@
 #include "action/archive.hpp"
 
 #include <algorithm>
+#include <numbers>
 
+#include "action/fingerprint.hpp"
 #include "support/error.hpp"
 
 namespace tactus::action {
@@ -11,7 +13,16 @@ namespace {
 using support::ByteReader;
 using support::ByteWriter;
 
-constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'A'}, 2};
+constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'A'}, 3};
+
+/// rad or m that a joint may go between waypoints: paths are looked at in fine steps.
+constexpr double longest_step = 2.0 * std::numbers::pi;
+
+std::uint64_t fingerprint(const Task& task) {
+  Fingerprint print;
+  print.add(task.scene());
+  return print.sum();
+}
 
 void write_pose(ByteWriter& to, const Pose& pose) {
   for (int column = 0; column < 4; ++column)
@@ -66,7 +77,13 @@ JointPath read_path(ByteReader& from, int dof, std::size_t least, const char* fi
   const std::size_t count = from.count(8 * static_cast<std::size_t>(std::max(1, dof)), field);
   if (count < least) from.fail(field, std::to_string(count) + " waypoints", "at least " + std::to_string(least));
   JointPath path;
-  for (std::size_t i = 0; i < count; ++i) path.push_back(read_joints(from, dof, field));
+  for (std::size_t i = 0; i < count; ++i) {
+    path.push_back(read_joints(from, dof, field));
+    if (i > 0 && (path[i] - path[i - 1]).cwiseAbs().maxCoeff() > longest_step)
+      from.fail(field,
+                "a joint that goes more than a whole turn, or that many metres, at waypoint " + std::to_string(i),
+                "neighbours close to each other");
+  }
   return path;
 }
 
@@ -91,9 +108,9 @@ Sensing read_sensing(ByteReader& from, const char* field) {
   return sensing;
 }
 
-std::vector<std::uint8_t> save(const Action& action) {
+std::vector<std::uint8_t> save(const Task& task, const Action& action) {
   ByteWriter to(seal);
-  to.u32(static_cast<std::uint32_t>(action.path.front().size()));
+  to.u64(fingerprint(task));
   to.u32(static_cast<std::uint32_t>(action.kind));
   write_path(to, action.path);
   for (const double time : action.times) to.f64(time);
@@ -108,10 +125,11 @@ std::vector<std::uint8_t> save(const Action& action) {
 Action restore(const Task& task, const std::uint8_t* bytes, std::size_t size) {
   ByteReader from(seal, "saved action", bytes, size);
   const int dof = task.scene().robot->dof();
-  if (const std::uint32_t joints = from.u32("joints"); joints != static_cast<std::uint32_t>(dof))
-    throw support::Error(support::Status::wrong_scenario, "saved action: found one of a robot with " +
-                                                              std::to_string(joints) + " joints, expected " +
-                                                              std::to_string(dof));
+  if (from.u64("fingerprint") != fingerprint(task))
+    throw support::Error(
+        support::Status::wrong_scenario,
+        "saved action: found one of another scenario, expected the same target, seats, tolerances, tool, "
+        "world and joints");
   Action action;
   action.kind = read_kind(from, "kind");
   action.path = read_path(from, dof, 1, "path");

@@ -7,10 +7,11 @@
 namespace tactus::action {
 
 /// The action as bytes, versioned and with a checksum.
-std::vector<std::uint8_t> save(const Action& action);
+std::vector<std::uint8_t> save(const Task& task, const Action& action);
 
 /// The action that was saved; `id` and `bodies` follow from its path. Throws `bad_saved_state`, naming what is wrong,
-/// for bytes that are none of `save`'s, and `wrong_scenario` for an action of a robot with another number of joints.
+/// for bytes that are none of `save`'s, and `wrong_scenario` for an action of another target, tool, robot or world: its
+/// path was found free of another world.
 Action restore(const Task& task, const std::uint8_t* bytes, std::size_t size);
 
 // Parts of other saved things.

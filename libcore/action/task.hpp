@@ -44,8 +44,8 @@ struct ActionOptions {
 /// contact and nothing else.
 struct Sensing {
   double stopping_distance = 0.0;  ///< m that a point of the robot may travel on after the first contact
-  double encoder_error = 0.0;      ///< m by which the reported joints may put a point of the tool off
-  double missed_contacts = 0.0;    ///< share of contacts that are not felt
+  double encoder_error = 0.0;      ///< m: no point of the robot is farther off than the reported joints say
+  double missed_contacts = 0.0;    ///< share of motions in which no contact is felt
   double false_contacts = 0.0;     ///< share of motions that are stopped by a contact that was none
   /// Whether a contact, or none, that it reports may not be true.
   bool errs() const { return missed_contacts > 0.0 || false_contacts > 0.0; }

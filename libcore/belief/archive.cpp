@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "action/fingerprint.hpp"
 #include "belief/belief.hpp"
 #include "support/error.hpp"
 
@@ -13,56 +14,14 @@ namespace {
 using support::ByteReader;
 using support::ByteWriter;
 
-constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 6};
-constexpr std::uint8_t most_splits = 60;  // of one dimension: far below any use
+constexpr support::Seal seal{{'T', 'A', 'C', 'T', 'U', 'S', '-', 'B'}, 7};
 
-/// A running hash of whatever a saved belief makes sense with only.
-class Fingerprint {
- public:
-  void add(std::uint64_t word) { sum_ = support::mix(sum_ ^ word); }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value + 0.0)); }  // + 0.0: no minus zero
-  void add(const std::string& text) {
-    add(text.size());
-    for (const char letter : text) add(std::uint64_t{static_cast<std::uint8_t>(letter)});
-  }
-  /// To a millionth: it may come from sines.
-  void add(const Pose& pose) {
-    for (const double x : pose.matrix().reshaped()) add(static_cast<std::uint64_t>(std::llround(1e6 * x)));
-  }
-  void add(const geometry::Mesh& mesh) {
-    add(mesh.vertices.size());
-    for (const Vector3& v : mesh.vertices)
-      for (const double x : v) add(x);
-    for (const geometry::Triangle& t : mesh.triangles)
-      for (const std::int32_t index : t) add(static_cast<std::uint64_t>(index));
-  }
-  void add(const scene::Guess& guess) {
-    add(guess.share);
-    for (const double x : guess.normal.mean()) add(x);
-    for (const double x : guess.normal.covariance().reshaped()) add(x);
-  }
-  std::uint64_t sum() const { return sum_; }
-
- private:
-  std::uint64_t sum_ = 0;
-};
-
-/// Of the target, its seats, the tool, the prior, the joints, and the options that shape the belief. The robot's frames
-/// are left out: they come from sines that need not be the same to the last bit on every machine.
+/// Of the scene, the prior, and the options that shape the belief.
 std::uint64_t fingerprint(const Model& model) {
-  const scene::Scene& scene = model.task->scene();
   const Options& options = model.options;
-  Fingerprint print;
-  print.add(scene.target.mesh);
-  print.add(scene.tool);
-  print.add(scene.target.target_from_seated.size());
-  for (const Pose& target_from_seated : scene.target.target_from_seated) print.add(target_from_seated);
-  for (int d = 0; d < 6; ++d) {
-    print.add(scene.prior.centre[d]);
-    print.add(scene.prior.width[d]);
-  }
-  for (const scene::Guess& guess : scene.prior.guesses) print.add(guess);
-  for (const robot::Joint& joint : scene.robot->joints) print.add(joint.name);
+  action::Fingerprint print;
+  print.add(model.task->scene());
+  print.add(model.task->scene().prior);
   print.add(model.task->options().contact_margin);
   print.add(model.task->options().stop_tolerance);
   const action::Sensing& sensing = model.task->options().sensing;
@@ -145,11 +104,9 @@ Cell read_cell(ByteReader& from, const scene::Prior& prior) {
     if (!(std::abs(cell.centre[d] - prior.centre[d]) <= 0.5 * prior.width[d] + 1e-9))
       from.fail("cell centre", std::to_string(cell.centre[d]), "a number inside the prior");
   }
-  for (std::uint8_t& splits : cell.splits) {
-    splits = from.u8("cell splits");
-    if (splits > most_splits)
-      from.fail("cell splits", std::to_string(splits), "at most " + std::to_string(most_splits));
-  }
+  for (std::uint8_t& splits : cell.splits) splits = from.u8("cell splits");
+  if (cell.all_splits() > most_splits)
+    from.fail("cell splits", std::to_string(cell.all_splits()), "at most " + std::to_string(most_splits));
   return cell;
 }
 
@@ -225,9 +182,9 @@ Trace read_trace(ByteReader& from, const Task& task) {
     if (*value < 0.0) from.fail("slack of an observation", std::to_string(*value), "not less than 0");
   }
   trace.path = action::read_path(from, task.scene().robot->dof(), trace.contact ? 2 : 1, "path of an observation");
-  if (trace.contact ? trace.touch >= trace.path.size() : trace.touch != trace.path.size())
+  if (trace.contact ? trace.touch == 0 || trace.touch >= trace.path.size() : trace.touch != trace.path.size())
     from.fail("touch of an observation", std::to_string(trace.touch),
-              (trace.contact ? "less than " : "") + std::to_string(trace.path.size()));
+              (trace.contact ? "at least 1 and less than " : "") + std::to_string(trace.path.size()));
   trace.bodies = BodyPath(task.bodies(), trace.path);
   return trace;
 }
@@ -257,10 +214,9 @@ std::vector<std::uint8_t> Belief::save() const {
 Belief Belief::restore(std::shared_ptr<const Model> model, const std::uint8_t* bytes, std::size_t size) {
   ByteReader from(seal, "saved belief", bytes, size);
   if (from.u64("fingerprint") != fingerprint(*model))
-    throw support::Error(
-        support::Status::wrong_scenario,
-        "saved belief: found one of another scenario, expected the same target, seats, tool, prior, joints "
-        "and belief options");
+    throw support::Error(support::Status::wrong_scenario,
+                         "saved belief: found one of another scenario, expected the same target, seats, tolerances, "
+                         "tool, world, prior, joints and belief options");
   Belief belief(std::move(model));
   const Task& task = belief.task();
   belief.q_ = action::read_joints(from, task.scene().robot->dof(), "configuration");

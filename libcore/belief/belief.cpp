@@ -205,7 +205,7 @@ bool Belief::is_likely_seated() const {
   const auto parts = weighed_->draw_parts(task(), history_, parts_weighed, weighed_radius, rng);
   const auto count = std::count_if(parts.begin(), parts.end(),
                                    [&](const WeighedCells::Weighed& part) { return seated_at(part.cell); });
-  return static_cast<double>(count) >= sure * static_cast<double>(parts.size());
+  return !parts.empty() && static_cast<double>(count) >= sure * static_cast<double>(parts.size());
 }
 
 /// The same where the cells are too coarse to tell. Not tried unless most of some parts of cells drawn by lot are

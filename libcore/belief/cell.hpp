@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 
 #include "geometry/pose.hpp"
 
@@ -16,8 +17,12 @@ struct Cell {
   std::array<std::uint8_t, 6> splits{};
   double bits = 0.0;  ///< by which the history is less likely from here than from where it is likeliest, where
                       ///< observations may err; else 0
+  std::size_t all_splits() const { return std::accumulate(splits.begin(), splits.end(), std::size_t{0}); }
   bool operator==(const Cell& other) const = default;
 };
+
+/// Of a cell, in all dimensions together: no more are made, nor restored.
+inline constexpr std::size_t most_splits = 120;
 
 /// A cell so much less likely than the likeliest counts neither for extents nor for modes.
 inline constexpr double negligible_bits = 10.0;

@@ -19,9 +19,10 @@ constexpr double widening = 1.02;        // of cells, until there are few enough
 using Counts = std::array<int, 6>;
 
 Counts counts(const scene::Prior& prior, double position, double angle) {
+  constexpr double most = 1e9;
   Counts count{};
   for (int d = 0; d < 6; ++d)
-    count[d] = std::max(1, static_cast<int>(std::ceil(prior.width[d] / (d < 3 ? position : angle) - 1e-9)));
+    count[d] = static_cast<int>(std::clamp(std::ceil(prior.width[d] / (d < 3 ? position : angle) - 1e-9), 1.0, most));
   return count;
 }
 
@@ -222,7 +223,7 @@ void CellGrid::sift(const Task& task, const std::vector<const Trace*>& traces, c
   rests.reserve(traces.size());
   std::vector<Claim> claims;
   for (const Trace* trace : traces) {
-    if (tables != nullptr) {
+    if (tables != nullptr && tables->serves(*trace)) {
       tables->sift(*trace, members_);
       rests.push_back(tables->rest(*trace));
       trace = &rests.back();

@@ -21,6 +21,9 @@ class CellTables {
 
   const CellShape& shape() const { return shape_; }
 
+  /// Whether they were made for a robot that may be off its waypoints by as much as a trace says.
+  bool serves(const Trace& trace) const { return trace.error <= task_.options().sensing.encoder_error; }
+
   /// Drops from `members` the cells every pose of which is touched at a waypoint at which the tool was free and stood
   /// on a site. O(rows near the motion), and whatever the tables take to make.
   void sift(const Trace& trace, Bitset& members) const;

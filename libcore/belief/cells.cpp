@@ -58,6 +58,7 @@ CellBelief::CellBelief(const Task& task, const CellOptions& options)
     : options_(options), prior_(task.scene().prior), weighs_(!prior_.guesses.empty()) {
   grid_.emplace(shape(prior_, options), task.target_reach());
   frame_ = {grid_->half_width(), task.target_reach()};
+  density_ = CellPrior(prior_, frame_);
   list_when_few();
   weigh();
 }
@@ -87,6 +88,7 @@ CellBelief CellBelief::restored(const Task& task, const CellOptions& options, st
 CellBelief CellBelief::weighed(const Task& task, const CellOptions& options, std::vector<Cell> cells) {
   CellBelief belief(task, options);
   for (int d = 0; d < 6; ++d) belief.frame_.half[d] = 0.5 * belief.prior_.width[d];
+  belief.density_ = CellPrior(belief.prior_, belief.frame_);
   belief.grid_.reset();
   belief.cells_ = std::move(cells);
   belief.weighs_ = true;
@@ -118,7 +120,7 @@ double CellBelief::volume() const {
 }
 
 double CellBelief::weight(const Cell& cell) const {
-  return std::exp2(-cell.bits) * volume(cell) * prior_.density(cell.centre);
+  return std::exp2(-cell.bits) * volume(cell) * density_.density(cell);
 }
 
 double CellBelief::weight() const { return weighed_.empty() ? volume() : weighed_.back(); }

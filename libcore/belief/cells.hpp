@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "belief/cell.hpp"
+#include "belief/cell_prior.hpp"
 #include "belief/cell_tables.hpp"
 #include "belief/projection.hpp"
 
@@ -60,7 +61,7 @@ class CellBelief {
   double coarsest() const;                                               ///< radius of the coarsest cell, m
   double volume(const Cell& cell) const { return frame_.volume(cell); }
   double volume() const;                        ///< of all cells
-  double weight(const Cell& cell) const;        ///< volume times the prior's density at the centre, less its bits
+  double weight(const Cell& cell) const;        ///< volume times the prior's mean density, less its bits
   double weight() const;                        ///< of all cells
   bool is_uniform() const { return !weighs_; }  ///< they weigh as much as their volume
 
@@ -129,6 +130,7 @@ class CellBelief {
   CellOptions options_;
   scene::Prior prior_;
   CellFrame frame_;
+  CellPrior density_;
   std::optional<CellGrid> grid_;
   std::vector<Cell> cells_;  ///< without a grid
   bool weighs_ = false;      ///< not by volume alone

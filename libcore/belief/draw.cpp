@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "belief/belief.hpp"
 
@@ -261,11 +262,14 @@ std::vector<Drawn> Belief::draw(std::size_t count, support::Rng& rng, const std:
   return Draw(*this, count, rng, deadline).poses(known);
 }
 
-/// Of fine parts drawn by weight: exactly as the explanation of the part has it where that can be had.
+/// Of fine parts drawn by weight: exactly as the explanation of the part has it where that can be had. Of whole cells if
+/// no part of those drawn is possible, as where a fault that never happens is all that explains the history.
 std::vector<Drawn> Belief::draw_explained(std::size_t count, support::Rng& rng,
                                           const support::Deadline& deadline) const {
   std::vector<Drawn> poses;
-  const auto parts = weighed_->draw_parts(task(), history_, count, finest_part, rng, deadline);
+  auto parts = weighed_->draw_parts(task(), history_, count, finest_part, rng, deadline);
+  if (parts.empty())
+    parts = weighed_->draw_parts(task(), history_, count, std::numeric_limits<double>::infinity(), rng, deadline);
   for (const WeighedCells::Weighed& part : parts) {
     const std::vector<const Trace*> traces = WeighedCells::explained(history_, part.doubts);
     const auto found = projected(task(), traces, part.cell.centre, least_near, deadline.cancellation());

@@ -68,17 +68,34 @@ Nearest nearest_in_metres(const Task& task, const JointVector& from, const Joint
   return away < best.away - tie ? Nearest{middle, away} : best;
 }
 
-/// Where a path comes nearest to `q` as `measure` has it for a segment: the first such pass, or the last.
+/// The points of a path's segments that are nearest to a configuration, as `measure` has it; the first is the path's
+/// beginning.
 template <typename Measure>
-Stop nearest_pass(const JointPath& path, bool first, const Measure& measure) {
-  Stop best;
-  double nearest = measure(path.front(), path.front()).away;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const auto [fraction, away] = measure(path[i - 1], path[i]);
-    const bool nearer = first ? away < nearest - tie : away <= nearest + tie;
-    if (!nearer || (fraction == 0.0 && away >= nearest - tie)) continue;
-    nearest = std::min(nearest, away);
-    best = {i, fraction, 0};
+std::vector<Nearest> nearest_points(const JointPath& path, const Measure& measure) {
+  std::vector<Nearest> points{measure(path.front(), path.front())};
+  for (std::size_t i = 1; i < path.size(); ++i) points.push_back(measure(path[i - 1], path[i]));
+  return points;
+}
+
+/// Where a path comes nearest: the first such pass, or the last. A robot that may be off by `error` may have stopped on
+/// any pass within that: the first of these counts, as what comes after it may not have been tested.
+Stop nearest_pass(const std::vector<Nearest>& points, bool first, double error) {
+  const auto least = std::min_element(points.begin(), points.end(),
+                                      [](const Nearest& a, const Nearest& b) { return a.away < b.away; });
+  const auto is_off = [&](const Nearest& point) { return point.away > std::max(least->away, error) + tie; };
+  auto begin = points.begin(), end = points.end();
+  if (first && error > 0.0) {
+    begin = std::find_if_not(begin, end, is_off);
+    end = std::find_if(begin, end, is_off);
+  }
+  const auto index = [&](auto point) { return static_cast<std::size_t>(point - points.begin()); };
+  Stop best{index(begin), begin->fraction, 0};
+  double nearest = begin->away;
+  for (auto point = begin + 1; point != end; ++point) {
+    const bool nearer = first ? point->away < nearest - tie : point->away <= nearest + tie;
+    if (!nearer || (point->fraction == 0.0 && point->away >= nearest - tie)) continue;
+    nearest = std::min(nearest, point->away);
+    best = {index(point), point->fraction, 0};
   }
   return best;
 }
@@ -133,12 +150,13 @@ Stop locate(const Task& task, const Action& action, const Observation& observati
   const double off_end = bound(task, path.back(), q);
   if (error > 0.0 && !observation.contact && off_end <= error + tie) return {path.size() - 1, 1.0, path.size() - 1};
   const bool first_pass = observation.contact || off_end > allowed;
-  Stop best = nearest_pass(
-      path, first_pass, [&](const JointVector& from, const JointVector& to) { return nearest_in_joints(from, to, q); });
+  const auto in_joints = [&](const JointVector& from, const JointVector& to) { return nearest_in_joints(from, to, q); };
+  const auto in_metres = [&](const JointVector& from, const JointVector& to) {
+    return nearest_in_metres(task, from, to, q, allowed);
+  };
+  Stop best = nearest_pass(nearest_points(path, in_joints), first_pass, 0.0);
   if (error > 0.0 || bound(task, point(path, best), q) > allowed)
-    best = nearest_pass(path, first_pass, [&](const JointVector& from, const JointVector& to) {
-      return nearest_in_metres(task, from, to, q, allowed);
-    });
+    best = nearest_pass(nearest_points(path, in_metres), first_pass, error);
   const JointVector on_path = point(path, best);
   const double off = bound(task, on_path, q);
   if (off > allowed)
@@ -198,7 +216,7 @@ Trace trace_of(const Task& task, const Action& action, const Observation& observ
 
 Trace retraced(const Task& task, const Trace& trace, const action::Sensing& sensing) {
   Trace again = trace;
-  again.error = sensing.encoder_error;
+  again.error = std::max(trace.error, sensing.encoder_error);
   if (!trace.contact || trace.travel == sensing.stopping_distance) return again;
   JointPath rest{trace.path.back()};
   again.path.pop_back();

@@ -55,15 +55,24 @@ VoxelBelief::VoxelBelief(std::shared_ptr<const VoxelModel> model)
     : model_(std::move(model)), possibly_occupied_(model_->grid.size(), true) {}
 
 void VoxelBelief::update(const Task& task, const Trace& trace) {
-  const contact::SweptVoxels swept = contact::swept_voxels(task.bodies(), trace.bodies, model_->grid);
-  const std::size_t free = trace.touch;
-  remove_free(swept.voxels, free == 0 ? 0 : swept.entered_by(free - 1));
+  remove_entered(task, trace);
   if (!trace.contact) return;
   const double slack = task.options().contact_margin + trace.error + trace.slack;
   Bitset candidates(model_->grid.size());
   for (std::size_t stop = trace.touch; stop < trace.bodies.size(); ++stop)
     candidates |= contact::contact_candidates(task.bodies(), trace.bodies, stop, model_->grid, slack);
   add_contact(candidates);
+}
+
+/// What the robot has certainly been in before it touched anything.
+void VoxelBelief::remove_entered(const Task& task, const Trace& trace) {
+  if (trace.error > 0.0) {
+    possibly_occupied_.and_not(
+        contact::voxels_deep_inside(task.bodies(), trace.bodies, trace.touch, model_->grid, trace.error));
+    return;
+  }
+  const contact::SweptVoxels swept = contact::swept_voxels(task.bodies(), trace.bodies, model_->grid);
+  remove_free(swept.voxels, trace.touch == 0 ? 0 : swept.entered_by(trace.touch - 1));
 }
 
 void VoxelBelief::remove_free(const std::vector<std::uint32_t>& swept, std::size_t count) {

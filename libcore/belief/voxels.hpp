@@ -59,6 +59,7 @@ class VoxelBelief {
                               std::vector<Bitset> candidates);
 
  private:
+  void remove_entered(const Task& task, const Trace& trace);
   bool shrink(ContactRecord& record, std::vector<float>& to_possible);
 
   std::shared_ptr<const VoxelModel> model_;

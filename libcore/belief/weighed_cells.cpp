@@ -14,14 +14,13 @@ namespace {
 
 constexpr std::size_t fewer = 5;           // cells carry the weight than are split where none has any
 constexpr std::size_t halved_at_once = 3;  // times as many, at most
-constexpr double heavy = 2.0;             // times the weight that each would have if all had the same: a cell is halved
-constexpr double lightest = 0.02;         // of that: none lighter is
-constexpr double light = 0.01;            // of that, two cells together: they are joined, and heavier ones if there is
-                                          // no room
-constexpr double lost = 1e-4;             // of that, or of a part that is halved: nothing more is asked of a cell
-constexpr std::size_t most_splits = 120;  // of a cell
-constexpr double rounding = 1e-9;         // m and rad
-constexpr double least_window = 0.001;    // m: stops that are nearer to each other are one
+constexpr double heavy = 2.0;           // times the weight that each would have if all had the same: a cell is halved
+constexpr double lightest = 0.02;       // of that: none lighter is
+constexpr double light = 0.01;          // of that, two cells together: they are joined, and heavier ones if there is
+                                        // no room
+constexpr double lost = 1e-4;           // of that, or of a part that is halved: nothing more is asked of a cell
+constexpr double rounding = 1e-9;       // m and rad
+constexpr double least_window = 0.001;  // m: stops that are nearer to each other are one
 
 /// Where else on its way a robot might have stopped, as far as the stops can be told apart.
 double stops(const action::Sensing& sensing, const Trace& trace) {
@@ -68,6 +67,7 @@ WeighedCells::WeighedCells(const Task& task, const action::Sensing& sensing, con
       cells_{{{prior_.centre}}} {
   for (int d = 0; d < 6; ++d) frame_.half[d] = 0.5 * prior_.width[d];
   frame_.reach = task.target_reach();
+  density_ = CellPrior(prior_, frame_);
   for (Cell cell; halved_.size() < most_splits; ++cell.splits[halved_.back()]) halved_.push_back(frame_.widest(cell));
 }
 
@@ -81,7 +81,7 @@ double WeighedCells::bits_of(const std::vector<Trace>& history, const Weighed& w
   return std::max(before, weighed.floor) + after;
 }
 
-/// Adds the doubts that one trace raises.
+/// Adds the doubts that one trace raises, in the order of the faults.
 void WeighedCells::ask(const Task& task, const std::vector<Trace>& history, std::size_t trace, Weighed& weighed) const {
   const Trace& seen = history[trace];
   const Pose pose = geometry::pose_from(weighed.cell.centre);
@@ -92,16 +92,16 @@ void WeighedCells::ask(const Task& task, const std::vector<Trace>& history, std:
   Fit free = fit_free(task, seen, pose, radius, 0);
   SetOut out;
   if (free != Fit::all && trace > 0) out = set_out(task, seen, pose, radius);
-  if (out.inside > 0) add(Fault::inside, true);
   if (out.clear > 0) {
     const bool is_known = out.inside == out.clear;
     free = fit_free(task, seen, pose, radius, out.clear);
     if (free == Fit::all && !is_known) free = Fit::some;
   }
   if (free != Fit::all) add(Fault::missed, free == Fit::none);
-  if (!seen.contact) return;
-  const Fit touch = out.inside >= seen.touch ? Fit::none : fit_touch(task, seen, pose, radius);
+  Fit touch = Fit::all;
+  if (seen.contact) touch = out.inside >= seen.touch ? Fit::none : fit_touch(task, seen, pose, radius);
   if (touch != Fit::all) add(Fault::imagined, touch == Fit::none);
+  if (out.inside > 0) add(Fault::inside, true);
 }
 
 /// What is certain of a whole is so of its halves; the rest is asked again, as long as they weigh enough to matter.
@@ -125,9 +125,9 @@ std::array<WeighedCells::Weighed, 2> WeighedCells::halves(const Task& task, cons
 
 /// The cell that two are the halves of; none if they aren't.
 std::optional<Cell> WeighedCells::whole_of(const Cell& low, const Cell& high) const {
-  const int splits = std::accumulate(low.splits.begin(), low.splits.end(), 0);
+  const std::size_t splits = low.all_splits();
   if (splits == 0 || low.splits != high.splits) return std::nullopt;
-  const int d = halved_[static_cast<std::size_t>(splits) - 1];
+  const int d = halved_[splits - 1];
   const double width = 2.0 * frame_.half_width(low)[d];
   const double before = (low.centre[d] - prior_.centre[d] + frame_.half[d]) / width;
   if (static_cast<std::int64_t>(before) % 2 != 0) return std::nullopt;
@@ -163,7 +163,7 @@ std::optional<WeighedCells::Weighed> WeighedCells::joined(const std::vector<Trac
 
 /// As a share of what it would be without doubts beyond those of the likeliest cell.
 double WeighedCells::weight(const Cell& cell) const {
-  return std::exp2(least_ - cell.bits) * frame_.volume(cell) * prior_.density(cell.centre);
+  return std::exp2(least_ - cell.bits) * frame_.volume(cell) * density_.density(cell);
 }
 
 double WeighedCells::likeliest() const {

@@ -195,6 +195,20 @@ std::vector<std::uint32_t> entered_of(const SweptVoxels& swept, const Bitset& se
   return counts;
 }
 
+Bitset voxels_deep_inside(const RobotBodies& bodies, const BodyPath& path, std::size_t waypoints, const VoxelGrid& grid,
+                          double depth) {
+  Bitset deep(grid.size());
+  for (std::size_t waypoint = 0; waypoint < waypoints; ++waypoint)
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const Body& body = bodies.body(b);
+      const Pose body_from_base = path.base_from_body(waypoint, b).inverse();
+      grid.for_each_in(box_at(body, path.base_from_body(waypoint, b)), [&](std::size_t voxel, const Vector3& centre) {
+        if (body.field().bounds(body_from_base * centre).upper < -depth) deep.set(voxel);
+      });
+    }
+  return deep;
+}
+
 Bitset contact_candidates(const RobotBodies& bodies, const BodyPath& path, std::size_t stop, const VoxelGrid& grid,
                           double slack) {
   Bitset candidates(grid.size());

@@ -38,6 +38,11 @@ SweptVoxels swept_voxels(const RobotBodies& bodies, const BodyPath& path, const 
 std::vector<std::uint32_t> entered_of(const SweptVoxels& swept, const Bitset& set,
                                       const kernel::SetKernel& kernel = kernel::fastest_set_kernel());
 
+/// Voxels whose centres are more than `depth` (m) inside the robot at one of the first `waypoints`: what a robot that
+/// may be off by as much has entered for sure. Each is looked at by itself at every waypoint.
+Bitset voxels_deep_inside(const RobotBodies& bodies, const BodyPath& path, std::size_t waypoints, const VoxelGrid& grid,
+                          double depth);
+
 /// Voxels that may hold the point of a contact at waypoint `stop` after the robot was free at `stop - 1`: centres
 /// within half a diagonal and `slack` of the surface at the stop, and not deeper than that inside the robot before it.
 /// One of the points of their cubes is touched. (The set S that U is measured from.)

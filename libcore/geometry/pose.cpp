@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/pose.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tactus::geometry {
+namespace {
+
+constexpr double gimbal_lock = 1e-12;  // of the pitch's cosine: roll and yaw show no more than their sum
+
+}  // namespace
 
 Pose pose_from(const PoseVector& v) {
   Pose pose = Pose::Identity();
@@ -18,9 +22,10 @@ Pose pose_from(const PoseVector& v) {
 PoseVector pose_vector(const Pose& pose) {
   const Eigen::Matrix3d r = pose.rotation();
   const Vector3 t = pose.translation();
-  const double pitch = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
-  if (std::abs(r(2, 0)) > 1.0 - 1e-12) return {t.x(), t.y(), t.z(), 0.0, pitch, std::atan2(-r(0, 1), r(1, 1))};
-  return {t.x(), t.y(), t.z(), std::atan2(r(2, 1), r(2, 2)), pitch, std::atan2(r(1, 0), r(0, 0))};
+  const double cosine = std::hypot(r(2, 1), r(2, 2)), pitch = std::atan2(-r(2, 0), cosine);
+  const double roll = cosine > gimbal_lock ? std::atan2(r(2, 1), r(2, 2)) : 0.0;
+  const double s = std::sin(roll), c = std::cos(roll);
+  return {t.x(), t.y(), t.z(), roll, pitch, std::atan2(s * r(0, 2) - c * r(0, 1), c * r(1, 1) - s * r(1, 2))};
 }
 
 Pose pose_from_quaternion(const double (&v)[7]) {

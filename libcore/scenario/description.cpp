@@ -177,7 +177,7 @@ void read_belief(Reader& in, BeliefDescription& belief) {
 
 void read_contact(Reader& in, ContactDescription& contact) {
   in.number("margin", contact.margin, not_negative);
-  in.number("stop_tolerance", contact.stop_tolerance, not_negative);
+  in.number("stop_tolerance", contact.stop_tolerance, positive);
   in.number("step", contact.step, positive);
   in.number("insertion_step", contact.insertion_step, positive);
 }
@@ -284,7 +284,7 @@ std::string text_of(const fs::path& file) {
 /// `heading` is the file in full, `name` what stands before each line number.
 Description parse(const std::string& yaml, const fs::path& base_dir, const std::string& name,
                   const std::string& heading) {
-  Findings findings(name, fs::absolute(base_dir));
+  Findings findings(name, fs::absolute(base_dir.empty() ? "." : base_dir));
   Description description;
   description.name = fs::path(name).stem().string();
   if (std::optional<Place> top = top_of(yaml, findings)) {
@@ -298,6 +298,7 @@ Description parse(const std::string& yaml, const fs::path& base_dir, const std::
 }  // namespace
 
 Description read_description(const fs::path& file) {
+  if (file.empty()) throw Error(Status::file_not_found, "path: found an empty one, expected that of a scenario file");
   return parse(text_of(file), fs::absolute(file).parent_path(), file.filename().string(), file.string());
 }
 

@@ -96,8 +96,8 @@ struct ContactDescription {
 /// How what the robot reports may differ from what it does.
 struct SensingDescription {
   double stopping_distance = 0.0;  ///< m that a point of the robot may travel on after the first contact
-  double encoder_error = 0.0;      ///< m by which the reported joints may put a point of the tool off
-  double missed_contacts = 0.0;    ///< share of contacts not felt, in [0, 0.5]
+  double encoder_error = 0.0;      ///< m: no point of the robot is farther off than the reported joints say
+  double missed_contacts = 0.0;    ///< share of motions in which no contact is felt, in [0, 0.5]
   double false_contacts = 0.0;     ///< share of motions stopped by a contact that was none, in [0, 0.5]
 };
 

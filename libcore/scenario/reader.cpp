@@ -21,6 +21,14 @@ std::optional<double> number_in(const YAML::Node& node) {
   return number_from(node.Scalar());
 }
 
+/// The first `most` bytes of a longer text, less those of a character of UTF-8 that does not end there.
+std::string beginning_of(const std::string& text, std::size_t most) {
+  constexpr std::size_t after_the_first = 3;  // bytes of a character at most
+  std::size_t end = most;
+  while (most - end < after_the_first && (text[end] & 0xC0) == 0x80) --end;
+  return text.substr(0, end);
+}
+
 std::string description_of(const YAML::Node& node) {
   constexpr std::size_t longest = 60;
   if (node.IsMap()) return "a map";
@@ -28,7 +36,7 @@ std::string description_of(const YAML::Node& node) {
   if (!node.IsScalar()) return "nothing";
   const std::string& text = node.Scalar();
   if (number_in(node)) return text;
-  return '"' + (text.size() > longest ? text.substr(0, longest) + "..." : text) + '"';
+  return '"' + (text.size() > longest ? beginning_of(text, longest) + "..." : text) + '"';
 }
 
 std::vector<Place> elements_of(const Place& list) {

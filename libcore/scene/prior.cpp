@@ -71,6 +71,19 @@ double Prior::density(const PoseVector& pose) const {
   return uniform + volume(*this) * guessed;
 }
 
+PriorOverBoxes::PriorOverBoxes(const Prior& prior, const PoseVector& half) : volume_(volume(prior)) {
+  for (const Guess& guess : prior.guesses) {
+    uniform_ -= guess.share;
+    guesses_.push_back({NormalOverBoxes(guess.normal, half, prior.width), guess.share});
+  }
+}
+
+double PriorOverBoxes::density(const PoseVector& centre) const {
+  double guessed = 0.0;
+  for (const Share& guess : guesses_) guessed += guess.share * guess.normal.mean_density(centre);
+  return uniform_ + volume_ * guessed;
+}
+
 /// Of the two ways to reject, the box keeps more where the density is nowhere above 1.
 Pose Prior::sample(support::Rng& rng) const {
   if (guesses.empty()) return geometry::pose_from(draw_anywhere(*this, rng));

@@ -100,28 +100,32 @@ void World::travel_to(const JointVector& q) {
   q_ = q;
 }
 
-std::size_t World::steps(const motion::JointPath& path) const {
-  return (path.size() - 1) * static_cast<std::size_t>(std::ceil(options_.fineness));
+/// The same path in the world's steps: `fineness` to one of the action's, and so many that a stop is reported within
+/// the tolerance that the scenario says it is.
+motion::JointPath World::in_fine_steps(const motion::JointPath& path) const {
+  const action::Task& task = *model_->task;
+  double longest = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    longest = std::max(longest, task.known_world().displacement(path[i - 1], path[i]));
+  const double parts = std::ceil(std::max(options_.fineness, longest / task.options().stop_tolerance));
+  motion::JointPath fine{path.front()};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    for (double k = 1.0; k < parts; ++k) fine.push_back(path[i - 1] + k / parts * (path[i] - path[i - 1]));
+    fine.push_back(path[i]);
+  }
+  return fine;
 }
 
-/// The configuration so many of the world's steps along a path.
-JointVector World::at(const motion::JointPath& path, std::size_t step) const {
-  const std::size_t substeps = static_cast<std::size_t>(std::ceil(options_.fineness));
-  const std::size_t i = step / substeps, k = step % substeps;
-  if (k == 0) return path[i];
-  return path[i] + static_cast<double>(k) / static_cast<double>(substeps) * (path[i + 1] - path[i]);
-}
-
-/// Goes along the path up to the first contact that is felt, and says after how many steps; none at the path's end.
+/// Goes along a path in fine steps up to the first contact that is felt, and says after how many; none at its end.
 std::optional<std::size_t> World::travel_until_felt(const motion::JointPath& path) {
-  const std::size_t last = steps(path);
+  const std::size_t last = path.size() - 1;
   const bool misses = rng_.uniform() < sensing().missed_contacts;
   const bool imagines = rng_.uniform() < sensing().false_contacts;
   const std::size_t imagined = 1 + static_cast<std::size_t>(rng_.uniform() * static_cast<double>(last));
   bool clear = !in_contact(q_);
   touched_ = false;
   for (std::size_t step = 1; step <= last; ++step) {
-    travel_to(at(path, step));
+    travel_to(path[step]);
     const bool touches = in_contact(q_);
     if (touches && clear && !misses) {
       touched_ = true;
@@ -136,8 +140,8 @@ std::optional<std::size_t> World::travel_until_felt(const motion::JointPath& pat
 
 /// Goes on along the path for so many metres of motion, or to its end.
 void World::travel_on(const motion::JointPath& path, std::size_t step, double metres) {
-  while (metres > 0.0 && step < steps(path)) {
-    const JointVector next = at(path, ++step);
+  while (metres > 0.0 && step + 1 < path.size()) {
+    const JointVector& next = path[++step];
     const double leg = model_->task->known_world().displacement(q_, next);
     travel_to(leg <= metres ? next : JointVector(q_ + metres / leg * (next - q_)));
     touched_ = touched_ || in_contact(q_);
@@ -179,8 +183,9 @@ belief::Observation World::execute(const action::Action& action) {
 }
 
 belief::Observation World::perform(const action::Action& action) {
-  const std::optional<std::size_t> felt = travel_until_felt(action.path);
-  if (felt) travel_on(action.path, *felt, sensing().stopping_distance * rng_.uniform());
+  const motion::JointPath path = in_fine_steps(action.path);
+  const std::optional<std::size_t> felt = travel_until_felt(path);
+  if (felt) travel_on(path, *felt, sensing().stopping_distance * rng_.uniform());
   const belief::Observation reported{felt.has_value(), reported_joints()};
   if (felt) retreat(action, reported);
   const scene::Scene& scene = model_->task->scene();

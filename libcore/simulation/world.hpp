@@ -9,7 +9,8 @@
 namespace tactus::simulation {
 
 struct WorldOptions {
-  double fineness = 10.0;                    ///< the world's steps are so many times finer than the action's
+  /// The world's steps are so many times finer than the action's, and no longer than the scenario's stop tolerance.
+  double fineness = 10.0;
   std::optional<action::Sensing> sensing{};  ///< what the robot really does; none: what the scenario says
   std::uint64_t seed = 1;                    ///< of what chance decides: the same, and the same actions: the same world
 };
@@ -47,8 +48,7 @@ class World {
   bool in_contact(const robot::JointVector& q) const;
   const action::Sensing& sensing() const { return *options_.sensing; }
   bool is_at(const robot::JointVector& q) const;
-  robot::JointVector at(const motion::JointPath& path, std::size_t step) const;
-  std::size_t steps(const motion::JointPath& path) const;
+  motion::JointPath in_fine_steps(const motion::JointPath& path) const;
   void travel_to(const robot::JointVector& q);
   belief::Observation perform(const action::Action& action);
   std::optional<std::size_t> travel_until_felt(const motion::JointPath& path);

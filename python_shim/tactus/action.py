@@ -63,7 +63,7 @@ class Action(Object):
 
     @property
     def expected_cost(self):
-        """The cost as the planner saw it."""
+        """The cost of this action and of all that follows until the goal (on voxels the hand-over to poses), as the planner saw it."""
         return self._properties.expected_cost
 
     @property

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import library
-from .library import BeliefHandle, Object, call, lib, pointer, rows, struct, value, vector
+from .library import BeliefHandle, Object, call, lib, one_of, pointer, rows, struct, value, vector, whole
 
 KINDS = {"hierarchical": 1, "particles": 2}
 LIKELIHOODS = {"paper": 1, "calibrated": 2}
@@ -63,7 +63,7 @@ class Belief(Object):
         options = struct(library.BeliefOptions, "tactus_belief_options_init")
         call("tactus_scenario_belief_options", scenario.handle, ctypes.byref(options))
         if kind is not None:
-            options.kind = KINDS.get(kind, 0)
+            options.kind = one_of(KINDS, kind, "kind")
         joints = scenario.start if q is None else vector(q, scenario.dof, "q")
         super().__init__(self._made_by("tactus_belief_create", BeliefHandle, scenario.handle, ctypes.byref(options),
                                        pointer(joints)))
@@ -80,10 +80,15 @@ class Belief(Object):
         """An independent copy."""
         return self._of(self._made_by("tactus_belief_clone", BeliefHandle, self.handle), self._dof)
 
+    __copy__ = clone
+
+    def __deepcopy__(self, _):
+        return self.clone()
+
     def step(self, action, observation):
         """Takes in what the robot reported after it executed ``action``. Some 0.1 s; the first steps of a wide prior some
         seconds, and late in a task, where it is proved that the tool is seated, up to 12 s in four dimensions and 26 s in
-        five were seen on one thread (`belief.threads` shortens that).
+        five were seen on one thread (`belief.threads` shortens that). Ctrl-C is heard when it is over; the observation was taken in then.
 
         Raises `StopOffPath`, `InvalidArgument`, `WrongScenario`; then nothing has changed."""
         call("tactus_belief_step", self.handle, action.handle, ctypes.byref(observation.as_struct()))
@@ -141,7 +146,8 @@ class Belief(Object):
 
         On voxels by the "paper"'s equations or the "calibrated" likelihood, the share of feasible poses (drawn with ``seed``); on poses
         their share. Raises `InvalidArgument`, `WrongScenario`."""
-        return rows("tactus_belief_forecast", self.handle, action.handle, LIKELIHOODS.get(likelihood, 0), seed)
+        return rows("tactus_belief_forecast", self.handle, action.handle,
+                    one_of(LIKELIHOODS, likelihood, "likelihood"), whole(seed, "seed"))
 
     def save(self):
         """The whole belief as bytes."""

@@ -60,6 +60,11 @@ EXCEPTIONS = {
 }
 
 
+def invalid(text):
+    """The exception for an argument that the library was not even asked about."""
+    return exception_for(100, "TACTUS_INVALID_ARGUMENT", text)
+
+
 def exception_for(status, name, text):
     """The exception for a status of 100 or more."""
     kind = EXCEPTIONS.get(status, TactusError)

@@ -5,7 +5,7 @@ import ctypes
 from dataclasses import dataclass
 
 from . import library
-from .library import InstanceHandle, Object, call, struct
+from .library import InstanceHandle, Object, call, fill, one_of, struct, whole
 from .planner import planner_options
 
 FORMATS = {"pomdpx": 1, "pomdp": 2}
@@ -33,10 +33,7 @@ class Instance(Object):
         """Draws ``poses`` from the prior and chooses up to ``motions`` sweeps and pokes, beside an insertion attempt at each pose
         and small moves, so that there are at most so many ``configurations``. Raises `InvalidArgument`, `TaskImpossible`."""
         options = struct(library.InstanceOptions, "tactus_instance_options_init")
-        chosen = {"poses": poses, "configurations": configurations, "motions": motions, "discount": discount, "seed": seed}
-        for name, wish in chosen.items():
-            if wish is not None:
-                setattr(options, name, wish)
+        fill(options, poses=poses, configurations=configurations, motions=motions, discount=discount, seed=seed)
         super().__init__(self._made_by("tactus_instance_create", InstanceHandle, scenario.handle, ctypes.byref(options)))
         self._scenario = scenario
 
@@ -49,10 +46,10 @@ class Instance(Object):
 
     def export(self, format="pomdpx"):
         """The text that public solvers read; ``format``: "pomdpx" (SARSOP, DESPOT) or "pomdp" (pomdp-solve, SARSOP)."""
-        count = ctypes.c_size_t()
-        call("tactus_instance_export", self.handle, FORMATS[format], None, 0, ctypes.byref(count))
+        number, count = one_of(FORMATS, format, "format"), ctypes.c_size_t()
+        call("tactus_instance_export", self.handle, number, None, 0, ctypes.byref(count))
         text = ctypes.create_string_buffer(count.value)
-        call("tactus_instance_export", self.handle, FORMATS[format], text, count.value, ctypes.byref(count))
+        call("tactus_instance_export", self.handle, number, text, count.value, ctypes.byref(count))
         return text.value.decode()
 
     def evaluate(self, **planner):
@@ -65,12 +62,12 @@ class Instance(Object):
     def optimum(self, most_beliefs=200_000):
         """The least expected cost that any policy can have, discounted; NaN if it takes more than so many beliefs."""
         optimum, beliefs = ctypes.c_double(), ctypes.c_uint64()
-        call("tactus_instance_optimum", self.handle, most_beliefs, ctypes.byref(optimum), ctypes.byref(beliefs))
+        call("tactus_instance_optimum", self.handle, whole(most_beliefs, "most_beliefs"), ctypes.byref(optimum), ctypes.byref(beliefs))
         return optimum.value
 
     def bounds(self, most_beliefs=200_000):
         """Two lower bounds of the optimum, {"informed", "pairs"}: the expected cost if the pose were known, and the mean of the
         optima of pairs of poses, which have to be told apart (V* is concave); NaN if it takes more than so many beliefs."""
         informed, pairs = ctypes.c_double(), ctypes.c_double()
-        call("tactus_instance_bounds", self.handle, most_beliefs, ctypes.byref(informed), ctypes.byref(pairs))
+        call("tactus_instance_bounds", self.handle, whole(most_beliefs, "most_beliefs"), ctypes.byref(informed), ctypes.byref(pairs))
         return {"informed": informed.value, "pairs": pairs.value}

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The shared library: where it is, its structs, and the type of every function in one table."""
 
+import _thread
+import contextlib
 import ctypes
 import ctypes.util
+import operator
 import os
 import pathlib
 from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
@@ -242,11 +245,16 @@ lib = _load()
 
 # --- calling
 
+def text(given):
+    """What the library says; a file's name or its contents in it need not be UTF-8."""
+    return given.decode(errors="replace")
+
+
 def status_of(name, *arguments):
     """Calls ``name`` and returns its status, below 100. Raises for an error."""
     status = getattr(lib, name)(*arguments)
     if status >= 100:
-        raise errors.exception_for(status, lib.tactus_status_name(status).decode(), lib.tactus_last_error().decode())
+        raise errors.exception_for(status, text(lib.tactus_status_name(status)), text(lib.tactus_last_error()))
     return status
 
 
@@ -269,6 +277,38 @@ def struct(kind, name):
     return made
 
 
+def fill(made, **wishes):
+    """Sets the fields of a struct for which there is a wish. Raises for a whole number that a field has no room for."""
+    kinds = dict(made._fields_)
+    for name, wish in wishes.items():
+        if wish is not None:
+            setattr(made, name, wish if kinds[name] is c_double else whole(wish, name, kinds[name]))
+
+
+def whole(number, argument, kind=c_uint64):
+    """``number``, an int or one of numpy's, if ``kind`` has room for it."""
+    number = operator.index(number)
+    if kind(number).value != number:
+        signed, bits = kind(-1).value < 0, 8 * ctypes.sizeof(kind)
+        low, high = (-1 << bits - 1, (1 << bits - 1) - 1) if signed else (0, (1 << bits) - 1)
+        raise errors.invalid(f"{argument}: found {number}, expected a whole number from {low} to {high}")
+    return number
+
+
+def c_string(encoded, argument):
+    """``encoded``, if the library will see all of it."""
+    if b"\0" in encoded:
+        raise errors.invalid(f"{argument}: found a zero at byte {encoded.index(0)}, expected text without one")
+    return encoded
+
+
+def one_of(choices, word, argument):
+    """What ``choices`` has for ``word``."""
+    if word not in choices:
+        raise errors.invalid(f"{argument}: found {word!r}, expected one of {', '.join(map(repr, choices))}")
+    return choices[word]
+
+
 def rows(name, *arguments, width=None, dtype=np.float64):
     """The array that ``name`` gives out: (count x width), or (count) without a width."""
     count = c_size_t()
@@ -287,9 +327,42 @@ def vector(values, size, argument):
     """``values`` as a contiguous array of ``size`` doubles."""
     array = np.array(values, np.float64).ravel()
     if array.size != size:
-        raise errors.exception_for(100, "TACTUS_INVALID_ARGUMENT",
-                                   f"{argument}: found {array.size} numbers, expected {size}")
+        raise errors.invalid(f"{argument}: found {array.size} numbers, expected {size}")
     return array
+
+
+def interruptible(work, stop):
+    """``work()``, on a thread of its own. Meanwhile signals are heard: what their handlers raise, as Ctrl-C does, calls ``stop()`` until
+    ``work`` has come to its end, and is raised then. Plain locks, as Python's other means of waiting do not bear Ctrl-C twice."""
+    begun, under_way, came_of_it = _thread.allocate_lock(), _thread.allocate_lock(), []
+    under_way.acquire()
+
+    def run():
+        if not begun.acquire(blocking=False):
+            return  # interrupted before
+        try:
+            came_of_it.append((work(), None))
+        except BaseException as error:
+            came_of_it.append((None, error))
+        under_way.release()
+
+    try:
+        _thread.start_new_thread(run, ())
+        while not under_way.acquire(timeout=0.05):
+            pass  # a signal that comes just before one waits, or to another thread, does not end the waiting
+    except BaseException:
+        has_begun = not begun.acquire(blocking=False)
+        while has_begun and not came_of_it:
+            try:
+                stop()  # unheard if `work` is yet to begin what it stops
+                under_way.acquire(timeout=0.01)
+            except BaseException:  # Ctrl-C again
+                pass
+        raise
+    result, error = came_of_it.pop()
+    if error is not None:
+        raise error
+    return result
 
 
 class Object:
@@ -303,8 +376,20 @@ class Object:
     @classmethod
     def _made_by(cls, name, handle_type, *arguments):
         handle = POINTER(handle_type)()
-        call(name, *arguments, ctypes.byref(handle))
+        with cls._given_back_unless_used(handle):
+            call(name, *arguments, ctypes.byref(handle))
         return handle
+
+    @classmethod
+    @contextlib.contextmanager
+    def _given_back_unless_used(cls, handle):
+        """Ctrl-C may come when the library has made the object, and nobody has it yet."""
+        try:
+            yield
+        except BaseException:
+            if handle:
+                getattr(lib, cls._destroy)(handle)
+            raise
 
     @property
     def handle(self):
@@ -316,6 +401,9 @@ class Object:
         handle, self._handle = getattr(self, "_handle", None), None
         if handle is not None:
             getattr(lib, self._destroy)(handle)
+
+    def __reduce__(self):
+        raise TypeError(f"{type(self).__name__}: it owns what the library made, and can't be copied or pickled")
 
     def __enter__(self):
         return self
@@ -330,16 +418,15 @@ class Object:
 
 # --- the library itself
 
-_log_callback = LOG_CALLBACK()  # kept alive while it is set
+_log_callbacks = []  # all that were ever set: a line on its way may still reach an earlier one
 
 
 def set_log(function):
     """Sends the library's log to ``function(level, message)``; level 0 is debug, 3 an error. None: nowhere."""
-    global _log_callback
     callback = LOG_CALLBACK() if function is None else LOG_CALLBACK(
-        lambda level, message, _: function(level, message.decode(errors="replace")))
+        lambda level, message, _: function(level, text(message)))
+    _log_callbacks.append(callback)
     call("tactus_set_log_callback", callback, None)
-    _log_callback = callback
 
 
 def version():

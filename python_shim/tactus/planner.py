@@ -9,7 +9,8 @@ import numpy as np
 
 from . import errors, library
 from .action import Action
-from .library import ActionHandle, Object, PlannerHandle, call, lib, rows, status_of, struct, value
+from .library import (ActionHandle, Object, PlannerHandle, c_string, call, fill, interruptible, lib, rows, status_of, struct, value,
+                      whole)
 
 SOLVERS = ("rtdp-bel", "rtdp-inad", "rtdp-ad", "brtdp-bel", "tbl", "frontier", "rate")
 
@@ -26,10 +27,10 @@ class Statistics:
     """What the last query took, and (total) all of them."""
 
     from_policy: bool     # the action was computed by an earlier query
-    expansions: int
-    seconds: float
-    lower_bound: float    # admissible value at the belief, in units of cost
-    value: float          # inadmissible value at the belief, in units of cost
+    expansions: int       # 0 if it did not plan
+    seconds: float        # 0 if it did not plan
+    lower_bound: float    # admissible value, in units of cost, of the belief for which the last action was handed out; 0 before
+    value: float          # inadmissible value of the same
     total_calls: int      # queries that planned
     total_expansions: int
     total_seconds: float
@@ -68,13 +69,11 @@ def planner_options(scenario, *, solver=None, seconds=None, expansions=None, eps
     options = struct(library.PlannerOptions, "tactus_planner_options_init")
     call("tactus_scenario_planner_options", scenario.handle, ctypes.byref(options))
     if solver is not None:
-        options.solver = value("tactus_solver_from_name", ctypes.c_int32, solver.encode())
+        options.solver = value("tactus_solver_from_name", ctypes.c_int32, c_string(solver.encode(), "solver"))
     if seconds is not None or expansions is not None:
-        options.budget_seconds = math.inf if seconds is None else seconds
-        options.budget_expansions = 0 if expansions is None else expansions
-    for name, given in (("epsilon", epsilon), ("horizon", horizon), ("seed", seed)):
-        if given is not None:
-            setattr(options, name, given)
+        fill(options, budget_seconds=math.inf if seconds is None else seconds,
+             budget_expansions=whole(expansions or 0, "expansions"))
+    fill(options, epsilon=epsilon, horizon=horizon, seed=seed)
     return options
 
 
@@ -96,13 +95,18 @@ class Planner(Object):
         self.reason = None
 
     def query(self, belief):
-        """The next action; None when there is none, and then ``reason`` says why: "goal reached", "no informative action" or "cancelled"."""
+        """The next action; None when there is none, and then ``reason`` says why: "goal reached", "no informative action" or "cancelled".
+
+        Ctrl-C cancels it."""
         handle = ctypes.POINTER(ActionHandle)()
-        self.reason = REASONS[status_of("tactus_planner_query_action", self.handle, belief.handle, ctypes.byref(handle))]
+        with Action._given_back_unless_used(handle):
+            status = interruptible(lambda: status_of("tactus_planner_query_action", self.handle, belief.handle,
+                                                     ctypes.byref(handle)), self.cancel)
+        self.reason = REASONS[status]
         return Action(handle, self._dof) if handle else None
 
     def cancel(self):
-        """The query that another thread has running returns soon with what it has."""
+        """The query that another thread has running soon returns None, with "cancelled" for a ``reason``, unless it has its answer."""
         call("tactus_planner_cancel", self.handle)
 
     @property

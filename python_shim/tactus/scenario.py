@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import library
-from .library import Object, ScenarioHandle, call, pointer, rows, struct, value, vector
+from .library import Object, ScenarioHandle, c_string, call, pointer, rows, struct, text, value, vector, whole
 
 BODY_KINDS = {1: "robot", 2: "tool", 3: "world", 4: "target"}
 
@@ -31,16 +31,17 @@ class Scenario(Object):
     @classmethod
     def load(cls, path):
         """Reads a scenario file and all that it names. Takes seconds. Raises `BadInput` with everything that is wrong, `TaskImpossible`."""
-        return cls(cls._made_by("tactus_scenario_load", ScenarioHandle, os.fsencode(path)))
+        return cls(cls._made_by("tactus_scenario_load", ScenarioHandle, c_string(os.fsencode(path), "path")))
 
     @classmethod
-    def parse(cls, text, base_dir="."):
+    def parse(cls, yaml, base_dir="."):
         """The same from YAML text; its paths are relative to ``base_dir``."""
-        return cls(cls._made_by("tactus_scenario_parse", ScenarioHandle, text.encode(), os.fsencode(base_dir)))
+        return cls(cls._made_by("tactus_scenario_parse", ScenarioHandle, c_string(yaml.encode(), "yaml"),
+                                c_string(os.fsencode(base_dir), "base_dir")))
 
     @property
     def name(self):
-        return value("tactus_scenario_name", ctypes.c_char_p, self.handle).decode()
+        return text(value("tactus_scenario_name", ctypes.c_char_p, self.handle))
 
     @property
     def dof(self):
@@ -49,7 +50,7 @@ class Scenario(Object):
 
     @property
     def joint_names(self):
-        return [value("tactus_scenario_joint_name", ctypes.c_char_p, self.handle, j).decode() for j in range(self.dof)]
+        return [text(value("tactus_scenario_joint_name", ctypes.c_char_p, self.handle, j)) for j in range(self.dof)]
 
     @property
     def joint_limits(self):
@@ -83,7 +84,7 @@ class Scenario(Object):
     def sample_pose(self, seed):
         """A pose of the target (7), drawn from the prior; the same for the same seed."""
         pose = np.empty(7)
-        call("tactus_scenario_sample_pose", self.handle, seed, pointer(pose))
+        call("tactus_scenario_sample_pose", self.handle, whole(seed, "seed"), pointer(pose))
         return pose
 
     def save_tables(self):
@@ -102,7 +103,7 @@ class Scenario(Object):
         return [self._body(b) for b in range(count)]
 
     def _body(self, b):
-        return Body(value("tactus_scenario_body_name", ctypes.c_char_p, self.handle, b).decode(),
+        return Body(text(value("tactus_scenario_body_name", ctypes.c_char_p, self.handle, b)),
                     BODY_KINDS[value("tactus_scenario_body_kind", ctypes.c_int32, self.handle, b)],
                     rows("tactus_scenario_body_vertices", self.handle, b, width=3),
                     rows("tactus_scenario_body_triangles", self.handle, b, width=3, dtype=np.int32))
@@ -116,9 +117,9 @@ class Scenario(Object):
 def check(path):
     """Everything that is wrong with a scenario file: a list of lines, empty if nothing is. Takes as long as loading."""
     room, count = 1 << 20, ctypes.c_size_t()
-    text = ctypes.create_string_buffer(room)
-    call("tactus_scenario_check", os.fsencode(path), text, room, ctypes.byref(count))
-    return text.value.decode(errors="replace").splitlines()
+    findings = ctypes.create_string_buffer(room)
+    call("tactus_scenario_check", c_string(os.fsencode(path), "path"), findings, room, ctypes.byref(count))
+    return text(findings.value).splitlines()
 
 
 def pose_from_rpy(x, y, z, roll, pitch, yaw):

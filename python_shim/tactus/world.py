@@ -7,7 +7,7 @@ import numpy as np
 
 from . import library
 from .action import Observation
-from .library import Object, WorldHandle, call, pointer, struct, value, vector
+from .library import Object, WorldHandle, call, fill, pointer, struct, value, vector
 
 
 class World(Object):
@@ -23,11 +23,8 @@ class World(Object):
         really does (m, m, and shares up to 0.5), by default what the scenario's ``sensing`` says; ``seed`` decides what
         chance does. Raises `InvalidArgument`, `TaskImpossible`."""
         options = struct(library.WorldOptions, "tactus_world_options_init")
-        chosen = {"fineness": fineness, "seed": seed, "stopping_distance": stopping_distance,
-                  "encoder_error": encoder_error, "missed_contacts": missed_contacts, "false_contacts": false_contacts}
-        for name, wish in chosen.items():
-            if wish is not None:
-                setattr(options, name, wish)
+        fill(options, fineness=fineness, seed=seed, stopping_distance=stopping_distance, encoder_error=encoder_error,
+             missed_contacts=missed_contacts, false_contacts=false_contacts)
         pose = vector(true_pose, 7, "true_pose")
         super().__init__(self._made_by("tactus_world_create", WorldHandle, scenario.handle, pointer(pose),
                                        ctypes.byref(options)))

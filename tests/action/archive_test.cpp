@@ -48,7 +48,7 @@ Bytes resealed(Bytes bytes) {
 TEST(SavedAction, ComesBackAsItWas) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Action action = some_action(seed);
-    const Bytes bytes = action::save(action);
+    const Bytes bytes = action::save(task(), action);
     const Action again = action::restore(task(), bytes.data(), bytes.size());
     EXPECT_EQ(again.id, action.id);
     EXPECT_EQ(again.kind, action.kind);
@@ -66,13 +66,13 @@ TEST(SavedAction, ComesBackAsItWas) {
       EXPECT_EQ(again.bodies.base_from_body(i, 0).matrix(), action.bodies.base_from_body(i, 0).matrix());
       EXPECT_EQ(again.bodies.travelled(i, 0), action.bodies.travelled(i, 0));
     }
-    EXPECT_EQ(action::save(again), bytes);
+    EXPECT_EQ(action::save(task(), again), bytes);
   }
 }
 
 TEST(SavedAction, AnyFlippedByteIsAnError) {
   Rng rng(1);
-  const Bytes bytes = action::save(some_action(1));
+  const Bytes bytes = action::save(task(), some_action(1));
   for (std::size_t at = 0; at < bytes.size(); at += at < 64 ? 1 : 1 + rng.below(20)) {
     Bytes broken = bytes;
     broken[at] = static_cast<std::uint8_t>(broken[at] ^ (1 + rng.below(255)));
@@ -81,7 +81,7 @@ TEST(SavedAction, AnyFlippedByteIsAnError) {
 }
 
 TEST(SavedAction, OfAnyOtherLengthIsAnError) {
-  const Bytes bytes = action::save(some_action(2));
+  const Bytes bytes = action::save(task(), some_action(2));
   for (std::size_t size = 0; size < bytes.size(); size += 7)
     EXPECT_EQ(status_of(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))),
               Status::bad_saved_state);
@@ -92,7 +92,7 @@ TEST(SavedAction, OfAnyOtherLengthIsAnError) {
 
 TEST(SavedAction, AnyBytesUnderAFittingChecksumAreRestoredOrRefused) {
   Rng rng(3);
-  const Bytes bytes = action::save(some_action(3));
+  const Bytes bytes = action::save(task(), some_action(3));
   int refused = 0;
   for (int i = 0; i < 1000; ++i) {
     Bytes changed = bytes;
@@ -107,17 +107,46 @@ TEST(SavedAction, AnyBytesUnderAFittingChecksumAreRestoredOrRefused) {
   EXPECT_GT(refused, 200);
 }
 
-TEST(SavedAction, OfARobotWithOtherJointsIsOfAnotherScenario) {
-  Bytes bytes = action::save(some_action(4));
+TEST(SavedAction, WithAnotherFingerprintIsOfAnotherScenario) {
+  Bytes bytes = action::save(task(), some_action(4));
   bytes[20] = 7;
   EXPECT_EQ(status_of(resealed(bytes)), Status::wrong_scenario);
 }
 
 TEST(SavedAction, AndASavedBeliefAreNotTakenForOneAnother) {
   const auto model = small_model(belief::Kind::particles, {.position_width = 0.02});
-  const Bytes belief = belief::Belief(model, task().scene().start).save(), action = action::save(some_action(5));
+  const Bytes belief = belief::Belief(model, task().scene().start).save(),
+              action = action::save(task(), some_action(5));
   EXPECT_EQ(status_of(belief), Status::bad_saved_state);
   EXPECT_THROW(belief::Belief::restore(model, action.data(), action.size()), support::Error);
+}
+
+Status status_in(const scene::Scene& scene, const Bytes& bytes) {
+  const action::Task other(scene, task().options());
+  try {
+    action::restore(other, bytes.data(), bytes.size());
+  } catch (const support::Error& error) {
+    return error.status();
+  }
+  return Status::ok;
+}
+
+TEST(SavedAction, OfAnotherSceneIsNotTaken) {
+  const Bytes bytes = action::save(task(), some_action(3));
+  EXPECT_EQ(status_in(task().scene(), bytes), Status::ok);
+  scene::Scene walled = task().scene(), smaller = walled, elsewhere = walled;
+  walled.world.push_back({"wall", geometry::box_mesh({0.1, 1.0, 1.0})});
+  for (Vector3& v : walled.world.back().mesh.vertices) v.x() += 2.0;
+  smaller.tool = geometry::transformed(smaller.tool, geometry::pose_from({0.001, 0, 0, 0, 0, 0}));
+  elsewhere.target.target_from_seated.front().translation().x() += 0.001;
+  for (const scene::Scene& scene : {walled, smaller, elsewhere})
+    EXPECT_EQ(status_in(scene, bytes), Status::wrong_scenario);
+}
+
+TEST(SavedAction, WithAJumpIsRefused) {
+  Action action = some_action(4);
+  action.path.back()[5] += 1e5;
+  EXPECT_EQ(status_of(action::save(task(), action)), Status::bad_saved_state);
 }
 
 }  // namespace

@@ -212,5 +212,38 @@ TEST(SavedBelief, ErrorsSayWhatIsWrong) {
   EXPECT_NE(error_of(m, Bytes(5)).find("length"), std::string::npos);
 }
 
+TEST(SavedBelief, OfOtherTolerancesIsNotTaken) {
+  const Bytes bytes = Belief(model(Kind::particles), task()->scene().start).save();
+  scene::Scene scene = task()->scene();
+  scene.target.position_tolerance *= 0.01;
+  const auto stricter = std::make_shared<const action::Task>(scene, task()->options());
+  error_of(small_model(stricter, Kind::particles, {.delta = 1300, .most_cells = 200}), bytes, Status::wrong_scenario);
+}
+
+/// Where a saved belief's history begins: header, fingerprint, configuration, health, goal, standstill, count.
+constexpr std::size_t first_trace = 20 + 8 + 6 * 8 + 1 + 1 + 4 + 8;
+
+TEST(SavedBelief, AContactBeforeWhichTheRobotWasNowhereIsRefused) {
+  const ModelPtr m = model(Kind::particles);
+  Belief belief(m, task()->scene().start);
+  const auto at = [](double x) { return joints({x, 0.012, 0.01, 0, 0, 0}); };
+  const action::Action poke = action_round(*task(), {at(0.40), at(0.4217)});
+  belief.step(poke, {true, poke.path.back()});
+  Bytes bytes = belief.save();
+  const std::size_t touch = first_trace + 8 + 4 + 1 + 1 + 8;
+  ASSERT_EQ(bytes[touch], belief.history().front().touch);
+  std::fill_n(bytes.begin() + touch, 8, std::uint8_t{0});
+  EXPECT_NE(error_of(m, resealed(bytes)).find("touch of an observation"), std::string::npos);
+}
+
+TEST(SavedBelief, CellsSplitMoreOftenThanAnyAreAreRefused) {
+  const ModelPtr errs =
+      small_model(Kind::particles, {.most_cells = 200, .sensing = {.missed_contacts = 0.1, .false_contacts = 0.1}});
+  Bytes bytes = Belief(errs, errs->task->scene().start).save();
+  const std::size_t first_cell = first_trace + 2 + 4 * 8 + 8;
+  std::fill_n(bytes.begin() + first_cell + 6 * 8, 6, std::uint8_t{60});
+  EXPECT_NE(error_of(errs, resealed(bytes)).find("cell splits"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tactus::test

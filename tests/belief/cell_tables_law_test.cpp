@@ -148,5 +148,24 @@ TEST(CellTables, KnowMostMotionsOfALibrary) {
   EXPECT_GT(known, all * 4 / 5);
 }
 
+/// Up to 5 mm into the target by its waypoints, which may be 6 mm off: on sites, and just beside them.
+TEST(CellTables, AreNotAskedForARobotThatMayBeFartherOffThanTheyWereMadeFor) {
+  const auto model = small_model(belief::Kind::particles);
+  const action::Task& task = *model->task;
+  const Vector3 end = task.options().sites->nearest({0.4266, 0.012, 0.01});
+  for (const double beside : {0.0, 0.00004})
+    for (int i = -10; i < 10; ++i) {
+      const Pose truth = geometry::pose_from({0.45, 0.0005 * i, 0.01, 0.1, 0.0, 0.0});
+      std::vector<JointVector> path;
+      for (int k = 8; k >= 0; --k) path.push_back(joints({end.x() - 0.004 * k, end.y() + beside, end.z(), 0.1, 0, 0}));
+      action::Action action = action_along(task, path);
+      action.sensing.encoder_error = 0.006;
+      belief::Belief belief(model, task.scene().start);
+      belief.step(action, {false, action.path.back()});
+      ASSERT_TRUE(belief::reproduces(task, belief.history(), truth)) << i;
+      EXPECT_TRUE(belief.contains(truth)) << i << " beside its sites by " << beside;
+    }
+}
+
 }  // namespace
 }  // namespace tactus::test

@@ -389,5 +389,15 @@ TEST(Cells, AreLeftAloneWhenAnObservationLeavesNone) {
   EXPECT_EQ(cells.cells(), before);
 }
 
+TEST(Cells, AreAsManyAsThereMayBeHoweverFineTheyAreAskedFor) {
+  const scene::Prior prior{{0.5, 0.1, 0.0, 0.3, 0.0, 0.0}, {0.0, 0.08, 0.08, 1.0, 0.0, 0.0}};
+  const belief::CellShape fine = belief::cell_shape(prior, 1e-6, 1e-5, 5000);
+  for (const double finer : {1e-9, 1e-12, 1e-300}) {
+    const belief::CellShape shape = belief::cell_shape(prior, finer, 10.0 * finer, 5000);
+    EXPECT_LE(shape.cells(), 5000u);
+    for (std::size_t d = 0; d < 6; ++d) EXPECT_NEAR(shape.count[d], fine.count[d], 0.1 * fine.count[d]) << finer;
+  }
+}
+
 }  // namespace
 }  // namespace tactus::test

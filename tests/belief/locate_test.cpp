@@ -213,5 +213,31 @@ TEST(Step, TheErrorNamesTheJointAndHowFarOff) {
   EXPECT_NE(text(off).find("10.0"), std::string::npos) << text(off);
 }
 
+/// In along x, a millimetre aside and out again: reported from the way in, and nearer to the way out.
+TEST(Locate, OfPassesThatARobotMayHaveStoppedOnTakesTheFirst) {
+  const auto may_err = small_model(belief::Kind::particles, {.sensing = {.encoder_error = 0.0015}});
+  const Pose truth = geometry::pose_from({0.45, 0.0, 0.01, 0.1, 0.0, 0.0});
+  const auto at = [](double x, double y) { return joints({x, y, 0.01, 0, 0, 0}); };
+  const action::Action action =
+      action_round(*may_err->task, {at(0.40, 0.012), at(0.446, 0.012), at(0.446, 0.013), at(0.40, 0.013)});
+  for (const double aside : {0.0, 0.0003, 0.0006, 0.0009, 0.0012}) {
+    const Observation seen{true, at(0.4216, 0.012 + aside)};
+    EXPECT_LE(belief::locate(*may_err->task, action, seen).segment, 6u) << aside;
+    Belief belief(may_err, may_err->task->scene().start);
+    belief.step(action, seen);
+    EXPECT_TRUE(belief.contains(truth)) << aside;
+    EXPECT_EQ(belief.health(), belief::Health::good) << aside;
+  }
+}
+
+TEST(Locate, ATraceRetracedStaysAsFarOffAsItWas) {
+  action::Action action = action_round(task(), {in_front(0.30), in_front(0.32)});
+  action.sensing.encoder_error = 0.006;
+  const Observation seen{false, action.path.back()};
+  const belief::Trace trace = belief::trace_of(task(), action, seen, belief::locate(task(), action, seen));
+  EXPECT_EQ(belief::retraced(task(), trace, {.encoder_error = 0.0001}).error, 0.006);
+  EXPECT_EQ(belief::retraced(task(), trace, {.encoder_error = 0.007}).error, 0.007);
+}
+
 }  // namespace
 }  // namespace tactus::test

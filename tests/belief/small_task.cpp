@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "belief/small_task.hpp"
 
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -168,6 +169,17 @@ action::Action insertion_at(const action::Task& task, action::ActionLibrary& lib
 
 action::Action action_along(const action::Task& task, const std::vector<JointVector>& waypoints) {
   return action::make_action(task, action::Kind::move, waypoints, 0, {{0, {0.1, 0.5, 4.0}}});
+}
+
+action::Action action_round(const action::Task& task, const std::vector<JointVector>& corners) {
+  constexpr double step = 0.004;
+  std::vector<JointVector> path{corners.front()};
+  for (const JointVector& corner : corners) {
+    const JointVector from = path.back();
+    const int count = static_cast<int>(std::ceil((corner - from).norm() / step - 1e-9));
+    for (int k = 1; k <= count; ++k) path.push_back(from + static_cast<double>(k) / count * (corner - from));
+  }
+  return action_along(task, path);
 }
 
 }  // namespace tactus::test

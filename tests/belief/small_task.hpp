@@ -54,4 +54,7 @@ action::Action insertion_at(const action::Task& task, action::ActionLibrary& lib
 /// An action along given waypoints.
 action::Action action_along(const action::Task& task, const std::vector<JointVector>& waypoints);
 
+/// An action straight from each of some corners to the next, in steps of 4 mm.
+action::Action action_round(const action::Task& task, const std::vector<JointVector>& corners);
+
 }  // namespace tactus::test

@@ -242,5 +242,33 @@ TEST(Voxels, ExcludeAPoseOnlyIfEveryPoseNearItHasAVoxelThatIsFree) {
   EXPECT_GT(excluded, 40);
 }
 
+/// Up to 2.9 mm into the target by its waypoints, which may be 3 mm off.
+TEST(Voxels, ARobotThatMayBeOffItsWaypointsClearsOnlyWhatItHasCertainlyBeenIn) {
+  const auto may_err =
+      small_model(belief::Kind::hierarchical, {.voxel_size = 0.004, .sensing = {.encoder_error = 0.003}});
+  const action::Task& task = *may_err->task;
+  const Pose truth = geometry::pose_from({0.45, 0.0, 0.01, 0.1, 0.0, 0.0});
+  const auto at = [](double x) { return joints({x, 0.012, 0.01, 0, 0, 0}); };
+  for (int i = 1; i <= 20; ++i) {
+    belief::Belief belief(may_err, task.scene().start);
+    const action::Action action = action_round(task, {at(0.40), at(0.4215 + 0.0029 * i / 20)});
+    belief.step(action, {false, action.path.back()});
+    ASSERT_TRUE(belief::reproduces(task, belief.history(), truth)) << i;
+    EXPECT_TRUE(belief.contains(truth)) << i;
+  }
+  belief::Belief belief(may_err, task.scene().start);
+  const Bitset before = belief.voxels().possibly_occupied();
+  const action::Action action = action_round(task, {at(0.40), at(0.46)});
+  belief.step(action, {false, action.path.back()});
+  Bitset removed = before, entered(before.size());
+  removed.and_not(belief.voxels().possibly_occupied());
+  const auto swept = contact::swept_voxels(task.bodies(), action.bodies, may_err->voxels->grid);
+  for (const std::uint32_t voxel : swept.voxels) entered.set(voxel);
+  EXPECT_GT(removed.count(), 20u);
+  EXPECT_LT(removed.count(), entered.count());
+  removed.and_not(entered);
+  EXPECT_TRUE(removed.none());
+}
+
 }  // namespace
 }  // namespace tactus::test

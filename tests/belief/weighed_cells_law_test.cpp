@@ -207,5 +207,79 @@ TEST(WeighedCells, TakeOverFromBeliefsThatAreContradicted) {
   }
 }
 
+TEST(WeighedCells, NameEachDoubtOnceInTheOrderOfTracesAndFaults) {
+  std::size_t named = 0;
+  for_episodes(31, 4, 7, [&](const Episode& episode) {
+    for (const WeighedCells::Weighed& weighed : episode.belief.weighed()->all()) {
+      named += weighed.doubts.size();
+      for (std::size_t i = 1; i < weighed.doubts.size(); ++i) {
+        const Doubt &before = weighed.doubts[i - 1], &doubt = weighed.doubts[i];
+        ASSERT_LT(std::pair(before.trace, before.fault), std::pair(doubt.trace, doubt.fault));
+      }
+    }
+  });
+  EXPECT_GT(named, 1000u);
+}
+
+/// Two contacts farther apart than a target is wide, by a robot that imagines none: coarse cells can't tell, fine parts
+/// of them can.
+TEST(WeighedCells, WhereNoPartIsPossibleTheGoalIsNotReachedAndThereIsSomethingToPlanOn) {
+  const auto never_imagines =
+      small_model(belief::Kind::particles, {.most_cells = 100, .sensing = {.missed_contacts = 0.05}});
+  const action::Task& task = *never_imagines->task;
+  int without_parts = 0;
+  for (const double apart : {0.060, 0.064, 0.066, 0.068, 0.070}) {
+    Belief belief(never_imagines, task.scene().start);
+    for (const double side : {-0.5, 0.5}) {
+      const action::Action poke = action_round(
+          task, {joints({0.40, side * apart, 0.01, 0, 0, 0}), joints({0.4217, side * apart, 0.01, 0, 0, 0})});
+      belief.step(poke, {true, poke.path.back()});
+    }
+    const std::vector<belief::Cell> cells = belief.cells().cells();
+    const belief::Cell& heaviest = *std::max_element(cells.begin(), cells.end(), [&](const auto& a, const auto& b) {
+      return belief.cells().weight(a) < belief.cells().weight(b);
+    });
+    const PoseVector& v = heaviest.centre;
+    const JointVector seat = joints({v[0] - 0.013, v[1], v[2], v[3], 0, 0});
+    JointVector before = seat;
+    before[0] -= 0.002;
+    const action::Action last = action_along(task, {before, seat});
+    belief.step(last, {false, seat});
+    Rng rng(1);
+    const bool none = belief.weighed()->draw_parts(task, belief.history(), 200, 0.0008, rng).empty();
+    without_parts += none;
+    EXPECT_FALSE(none && belief.is_goal()) << apart;
+    EXPECT_FALSE(belief.draw(20, rng).empty()) << apart;
+  }
+  EXPECT_GT(without_parts, 0);
+}
+
+/// Cells are coarse where nothing was seen yet, and a guess may be narrower than they are.
+TEST(WeighedCells, WeighANarrowGuessForWhatItIs) {
+  const PoseVector width{0.04, 0.08, 0.08, 0.4, 0.0, 0.0}, mean{0.455, 0.01, 0.02, 0.15, 0.0, 0.0};
+  for (const double deviation : {0.01, 0.004, 0.002, 0.001}) {
+    PoseVector off{deviation, deviation, deviation, 10.0 * deviation, 1.0, 1.0};
+    scene::Matrix6 covariance = scene::Matrix6::Zero();
+    for (int d = 0; d < 6; ++d) covariance(d, d) = off[static_cast<std::size_t>(d)] * off[static_cast<std::size_t>(d)];
+    const auto guessed =
+        small_model(belief::Kind::particles, {.roll_width = width[3],
+                                              .position_width = width[1],
+                                              .depth_width = width[0],
+                                              .most_cells = 1500,
+                                              .sensing = rates,
+                                              .guesses = {{scene::Normal(mean, covariance, width), 0.95}}});
+    const Belief belief(guessed, guessed->task->scene().start);
+    double near = 0.0;
+    belief.cells().for_each([&](const belief::Cell& cell) {
+      const PoseVector half = belief.cells().half_width(cell);
+      bool is_near = true;
+      for (std::size_t d = 0; d < 4; ++d)
+        is_near = is_near && std::abs(cell.centre[d] - mean[d]) <= 3.0 * off[d] + half[d];
+      if (is_near) near += belief.cells().weight(cell);
+    });
+    EXPECT_GT(near, 0.9 * belief.cells().weight()) << deviation;
+  }
+}
+
 }  // namespace
 }  // namespace tactus::test

@@ -249,4 +249,23 @@ TEST(Planner, NullIsNamed) {
   expect_refused(tactus_planner_cancel(nullptr), TACTUS_INVALID_ARGUMENT, "planner");
 }
 
+TEST(Planner, AHorizonOutOfRangeIsToldTheRange) {
+  for (const std::int64_t horizon : {std::int64_t{0}, std::int64_t{1} << 33}) {
+    tactus_planner_options given = options();
+    given.horizon = horizon;
+    tactus_planner* made = nullptr;
+    expect_refused(tactus_planner_create(shelf::scenario(), &given, &made), TACTUS_INVALID_ARGUMENT,
+                   "options.horizon: found " + std::to_string(horizon) + ", expected 1 to 2147483647");
+  }
+}
+
+TEST(Planner, ValuesAreOfTheBeliefThatTheLastActionWasFor) {
+  const shelf::Planner planner = shelf::planner();
+  EXPECT_EQ(statistics(planner).value, 0.0);
+  const shelf::Action action = shelf::query(planner, shelf::belief());
+  const tactus_statistics after = statistics(planner);
+  EXPECT_GT(after.value, 0.0);
+  EXPECT_GE(after.value, after.lower_bound);
+}
+
 }  // namespace

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
+
 #include "capi/shelf.hpp"
 
 namespace {
@@ -164,6 +166,46 @@ TEST(Scenario, TablesAreKeptAndTakenInAgain) {
   expect_refused(tactus_scenario_restore_tables(second.get(), nullptr, 0), TACTUS_INVALID_ARGUMENT, "bytes");
   some[some.size() / 2] ^= 1;
   EXPECT_EQ(saved(second.get()), some) << "nothing has changed";
+}
+
+TEST(Scenario, AnEmptyPathIsNoFile) {
+  tactus_scenario* made = reinterpret_cast<tactus_scenario*>(8);
+  expect_refused(tactus_scenario_load("", &made), TACTUS_FILE_NOT_FOUND, "path: found an empty one");
+  EXPECT_EQ(made, nullptr);
+  std::size_t count = 0;
+  char text[256];
+  expect_ok(tactus_scenario_check("", text, sizeof text, &count));
+  EXPECT_NE(std::string(text).find("path: found an empty one"), std::string::npos) << text;
+}
+
+TEST(Scenario, PathsInATextWithoutAFolderAreRelativeToTheProcess) {
+  const std::string text = "robot: {urdf: nowhere.urdf}\n", here = std::filesystem::current_path() / "nowhere.urdf";
+  tactus_scenario* made = nullptr;
+  for (const char* folder : {"", "."})
+    expect_refused(tactus_scenario_parse(text.c_str(), folder, &made), TACTUS_BAD_SCENARIO, here);
+  EXPECT_EQ(made, nullptr);
+}
+
+TEST(Scenario, ALongWordIsCutBetweenCharacters) {
+  std::string word = "x", cut = word;
+  for (int i = 0; i < 60; ++i) word += "\xC3\xA4";
+  for (int i = 0; i < 29; ++i) cut += "\xC3\xA4";  // to byte 59: the next character has bytes 60 and 61
+  tactus_scenario* made = nullptr;
+  expect_refused(tactus_scenario_parse(("planner: {solver: " + word + "}\n").c_str(), ".", &made), TACTUS_BAD_SCENARIO,
+                 '"' + cut + "...\"");
+  const std::string ascii(61, 'y');
+  expect_refused(tactus_scenario_parse(("planner: {solver: " + ascii + "}\n").c_str(), ".", &made), TACTUS_BAD_SCENARIO,
+                 '"' + ascii.substr(0, 60) + "...\"");
+}
+
+TEST(Scenario, BodiesOfARobotThatIsNowhereAreRefused) {
+  std::size_t count = 0;
+  std::vector<double> q = shelf::start();
+  for (const double nowhere : {shelf::nan, shelf::infinity}) {
+    q[2] = nowhere;
+    expect_refused(tactus_scenario_body_poses(shelf::scenario(), q.data(), shelf::pose(1).data(), nullptr, 0, &count),
+                   TACTUS_INVALID_ARGUMENT, "q[2] (elbow_joint)");
+  }
 }
 
 }  // namespace

@@ -314,6 +314,43 @@ def test_other_options_are_refused_by_name(shelf, whole, options, complaint):
     assert path.read_bytes() == before
 
 
+@pytest.mark.parametrize("solvers", ["rate,tbl,frontier,rtdp-bel", "tbl,rate,frontier", "rate,tbl"])
+def test_the_phase_of_poses_goes_on_with_the_same_solvers_only(shelf, poses, solvers):
+    path = poses[0]
+    before = path.read_bytes()
+    result = subprocess.run(command(shelf, path, "--phase", "poses", "--resume", "--solvers", solvers), capture_output=True, text=True, timeout=100)
+    assert result.returncode == 2 and "ended:" not in result.stderr and path.read_bytes() == before
+    assert f'solver "rate,tbl,frontier", expected "{solvers}"' in result.stderr and "beliefs that were not kept" in result.stderr
+
+
+@pytest.mark.parametrize("old, new, complaint", [
+    ("xyz: [1.004, 0.05, 0.55]", "xyz: [1.004, 0.051, 0.55]", "a trial of seed 3 with the target at [1.004,"),
+    ("width: {y: 0.04", "width: {y: 0.05", "a trial of seed 3 with the target at [1.004,"),
+    ("limits: {", "cost: {radian: 0.1}\nlimits: {", "cost-radian 0.05, expected 0.1 as the scenario has it"),
+    ("actions: 8", "actions: 9", "limit-actions 8, expected 9 as the scenario has it"),
+    ("limits: {", "limits: {travel: 5, ", "limit-travel 60, expected 5 as the scenario has it"),
+    ("limits: {", "limits: {seconds: 500, ", "limit-seconds 600, expected 500 as the scenario has it"),
+])
+def test_another_scenario_of_the_same_name_is_refused(shelf, whole, old, new, complaint, tmp_path):
+    other = tmp_path / "shelf.yaml"
+    other.write_text(shelf.read_text().replace(old, new, 1))
+    assert other.read_text() != shelf.read_text()
+    path = whole[0]
+    before = path.read_bytes()
+    result = subprocess.run(command(other, path, "--resume"), capture_output=True, text=True, timeout=100)
+    assert result.returncode == 2 and complaint in result.stderr and "ended:" not in result.stderr
+    assert path.read_bytes() == before
+
+
+def test_results_of_before_costs_and_limits_were_told_are_taken(shelf, whole, tmp_path):
+    path = tmp_path / "results.json"
+    told = ', "cost_metre": 1, "cost_radian": 0.05, "cost_action": 0.005, "limit_actions": 8, "limit_travel": 60, "limit_seconds": 600'
+    assert told in whole[0].read_text()
+    path.write_text(whole[0].read_text().replace(told, ""))
+    document, result = compare(shelf, path, "--resume")
+    assert "ended:" not in result.stderr and [document[key] for key in ("options", "trials")] == [whole[1][key] for key in ("options", "trials")]
+
+
 @pytest.mark.parametrize("damage, complaint", [
     (lambda text: text[:len(text) // 2], "found "),
     (lambda text: text.replace('"summary": [', '"summary": ]', 1), "found ']"),
@@ -339,3 +376,56 @@ def test_a_damaged_file_is_refused_and_left_alone(shelf, whole, damage, complain
 def test_what_cannot_be_compared_is_said(shelf, tmp_path, options, complaint):
     result = subprocess.run(command(shelf, tmp_path / "x.json", *options), capture_output=True, text=True, timeout=100)
     assert result.returncode == 2 and complaint in result.stderr and "ended:" not in result.stderr
+
+
+# --- trials that fail
+
+COLLIDING = 4  # a seed at which the target touches the robot at its start
+
+
+@pytest.fixture(scope="module")
+def near(shelf, tmp_path_factory):
+    """The target is so near that it touches the robot at some poses, and there is time to insert the plug at others."""
+    text = shelf.read_text()
+    for old, new in [("xyz: [1.004, 0.05, 0.55]", "xyz: [0.68, 0.05, 0.5]"), ("width: {y: 0.04", "width: {y: 0.3"), ("actions: 8", "actions: 40")]:
+        assert old in text
+        text = text.replace(old, new)
+    path = tmp_path_factory.mktemp("near") / "near.yaml"
+    path.write_text(text)
+    return path
+
+
+def check_failed(trial):
+    assert (trial["ended"], trial["inserted"]) == ("error", False)
+    assert all(trial[key] is None for key in KEYS)
+
+
+def test_a_trial_that_cannot_begin_fails_alone(near, tmp_path):
+    path = tmp_path / "results.json"
+    options = ("--solvers", "rate,tbl", "--belief", "particles", "--seed", COLLIDING, "--trials", 2)
+    document, result = compare(near, path, *options)
+    assert result.returncode == 1
+    assert result.stderr.count("START_IN_COLLISION") == 2 and "a target that the robot touches at its start" in result.stderr
+    for solver in ("rate", "tbl"):
+        trials = trials_of(document, solver)
+        check_failed(trials[COLLIDING])
+        assert trials[COLLIDING + 1]["inserted"]
+    check_summary(document)
+    assert all(row["finished"] == row["common"] == 1 and row["cost_ratio"] > 0 for row in document["summary"])
+    again, result = compare(near, path, "--resume", *options)
+    assert again["trials"] == document["trials"] and result.returncode == 1 and "ended:" not in result.stderr
+
+
+def test_where_the_first_solver_cannot_lead_all_fail(near, tmp_path):
+    document, result = compare(near, tmp_path / "results.json", "--phase", "poses", "--seed", COLLIDING, "--trials", 1)
+    assert result.returncode == 1 and "led all to: error" in result.stderr
+    for trial in document["trials"]:
+        check_failed(trial)
+
+
+def test_results_go_to_stdout_also_when_tables_cannot_be_saved(near):
+    words = command(near, "-", "--solvers", "rate,tbl", "--belief", "particles", "--seed", COLLIDING, "--trials", 1, "--tables", "/nowhere/x")
+    result = subprocess.run(words, capture_output=True, text=True, timeout=100)
+    assert result.returncode == 2 and "/nowhere/x" in result.stderr
+    for trial in json.loads(result.stdout)["trials"]:
+        check_failed(trial)

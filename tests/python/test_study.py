@@ -155,3 +155,10 @@ def test_the_study_runs_scenarios_that_are_there():
         words = study.command(setting, 1, 5)
         assert (ROOT / words[2]).exists() and "--resume" in words and words[words.index("--trials") + 1] == str(setting.trials)
     assert sum(setting.trials for setting in study.SETTINGS[:3]) == 1000
+
+
+def test_a_trial_that_could_not_begin_counts_as_one_and_for_no_mean():
+    begun = {"inserted": True, "truth_kept": True, "cost_m": 2.0, "actions": 10, "planner_calls": 10, "planning_s": 5.0}
+    never = {"inserted": False, "truth_kept": True, "cost_m": None, "actions": None, "planner_calls": None, "planning_s": None}
+    assert study.row("two", [begun, never]) == "| two | 2 | 1 (50.0 %) | 2 (100.0 %) | 2.00 | 2.00 | 2.00 | 10.0 | 10.0 | 5.0 |\n"
+    assert study.row("none", [never]) == "| none | 1 | 0 (0.0 %) | 1 (100.0 %) | - | - | - | - | - | - |\n"

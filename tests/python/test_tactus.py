@@ -263,3 +263,70 @@ def check_why(step):
     assert all(a["verdict"] in ("unreachable", "set aside") for a in told[:[a["verdict"] for a in told].index("chosen")])
     for a in told:
         assert sum(outcome[0] for outcome in a["outcomes"]) == pytest.approx(1.0, abs=1e-3)
+
+
+# --- the command where something is wrong
+
+def said_by_run(*options):
+    return subprocess.run([str(word) for word in (BUILD / "bin" / "tactus", "run", *options)], capture_output=True, text=True, timeout=200)
+
+
+@pytest.fixture
+def near(tmp_path):
+    """The target may touch the robot at its start: it does at seed 4, and not at 3 and 5."""
+    text = SHELF.read_text()
+    for old, new in [("../../examples", f"{ROOT}/examples"), ("[1.004, 0.05, 0.55]", "[0.68, 0.05, 0.5]"), ("{y: 0.04", "{y: 0.3"),
+                     ("actions: 3", "actions: 1")]:
+        assert old in text
+        text = text.replace(old, new)
+    path = tmp_path / "near.yaml"
+    path.write_text(text)
+    return path
+
+
+def test_command_goes_on_after_a_trial_that_could_not_begin(near, tmp_path):
+    path = tmp_path / "results.json"
+    words = (near, "--solver", "rate", "--budget-expansions", 1, "--seed", 3, "--trials", 3, "--json", path)
+    result = said_by_run(*words)
+    assert result.returncode == 1 and "seed 4: rate: TACTUS_START_IN_COLLISION" in result.stderr and "nan" not in result.stdout
+    document = json.loads(path.read_text())
+    ran, failed, other = document["trials"]
+    assert document["summary"]["ended"] == ["limit of actions", "error", "limit of actions"]
+    assert (failed["seed"], failed["inserted"], failed["cost_m"], failed["actions"], failed["planning_s"]) == (4, False, None, None, None)
+    assert document["summary"]["mean_cost_m"] == pytest.approx((ran["cost_m"] + other["cost_m"]) / 2, rel=1e-6)
+    assert document["summary"]["mean_actions"] == document["summary"]["mean_planner_calls"] == 1
+    again = said_by_run(*words, "--resume")
+    assert again.returncode == 1 and "3 of 3 trials are there" in again.stderr and "ended:" not in again.stderr
+    assert json.loads(path.read_text())["trials"] == document["trials"]
+
+
+def test_command_does_not_go_on_in_another_scenario_of_the_same_name(near, tmp_path):
+    path = tmp_path / "results.json"
+    words = (near, "--solver", "rate", "--budget-expansions", 1, "--seed", 4, "--json", path)
+    assert said_by_run(*words).returncode == 1
+    kept, text = path.read_bytes(), near.read_text()
+    for old, new, complaint in [("{y: 0.3", "{y: 0.2", "a trial of seed 4 with the target at [0.68,"),
+                                ("actions: 1", "actions: 2", "limit-actions 1, expected 2 as the scenario has it")]:
+        near.write_text(text.replace(old, new))
+        result = said_by_run(*words, "--resume")
+        assert result.returncode == 2 and complaint in result.stderr and path.read_bytes() == kept
+
+
+def test_command_writes_to_stdout_what_there_is_when_something_failed(near):
+    words = (near, "--solver", "rate", "--budget-expansions", 1, "--seed", 4, "--json", "-")
+    result = said_by_run(*words, "--tables", "/nowhere/x")
+    assert result.returncode == 2 and "/nowhere/x" in result.stderr
+    assert [trial["seed"] for trial in json.loads(result.stdout)["trials"]] == [4]
+    result = said_by_run(*words, "--true-pose", "9,9,9,0,0,0")
+    assert result.returncode == 2 and "outside the prior" in result.stderr and json.loads(result.stdout)["trials"] == []
+
+
+@pytest.mark.parametrize("options, complaint", [
+    (("--json", "--resume"), "--json: found '--resume', expected a value"),
+    (("--seed", "--trials", "3"), "--seed: found '--trials', expected a value"),
+    (("--json", "-", "--record", "-"), "--record: found what --json writes to"),
+    (("--json", "x.json", "--record", "x.json"), "--record: found what --json writes to"),
+])
+def test_command_refuses_options_that_make_no_sense(options, complaint, tmp_path):
+    result = subprocess.run([BUILD / "bin" / "tactus", "run", SHELF, *options], cwd=tmp_path, capture_output=True, text=True, timeout=100)
+    assert result.returncode == 2 and complaint in result.stderr and result.stdout == "" and not list(tmp_path.iterdir())

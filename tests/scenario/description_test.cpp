@@ -257,6 +257,8 @@ TEST_F(ScenarioDescription, RefusesWrongTypes) {
   expect_mistake(smallest + "world: [table]\n", "14: world[0]: found \"table\", expected a map");
   expect_mistake(smallest + "cost:\n  metre: \"1\"\n", "15: cost.metre: found \"1\", expected a number of at least 0");
   expect_mistake(smallest + "limits:\n", "14: limits: found nothing, expected a map");
+  expect_mistake(smallest + "contact:\n  stop_tolerance: 0\n",
+                 "15: contact.stop_tolerance: found 0, expected a number greater than 0");
   expect_mistake(smallest + "actions:\n  probe_depth: 0.1\n",
                  "15: actions.probe_depth: found 0.1, expected a list of numbers");
   expect_mistake(smallest + "[1, 2]: 3\n", "14: found a list of 2 as a key, expected a word");

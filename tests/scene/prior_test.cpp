@@ -256,5 +256,86 @@ TEST(CellRadius, OfAPureShiftIsHalfItsDiagonal) {
   EXPECT_DOUBLE_EQ(cell_radius({0.03, 0.04, 0.0, 0.0, 0.0, 0.0}, 1.0), 0.05);
 }
 
+TEST(Prior, HoldsItsCentralPoseAtAQuarterTurnOfPitch) {
+  for (const double pitch : {0.5 * pi, -0.5 * pi})
+    for (const double yaw : {0.0, 0.3, 0.7, 1.0, -2.0})
+      for (const double roll : {0.0, 0.2, -0.4}) {
+        const Prior steep{{0.0, 0.0, 0.0, roll, pitch, yaw}, {0.1, 0.1, 0.1, 0.2, 0.2, 0.2}};
+        EXPECT_TRUE(steep.contains(steep.central_pose())) << pitch << " " << yaw << " " << roll;
+      }
+}
+
+/// Boxes that fill the prior: as many to a side.
+template <typename Visit>
+void for_boxes(const Prior& box, int to_a_side, Visit visit) {
+  PoseVector half{}, centre;
+  std::size_t count = 1;
+  for (std::size_t d = 0; d < 6; ++d)
+    if (box.width[d] > 0.0) half[d] = 0.5 * box.width[d] / to_a_side, count *= static_cast<std::size_t>(to_a_side);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t rest = i;
+    for (std::size_t d = 0; d < 6; ++d) {
+      centre[d] = box.centre[d];
+      if (box.width[d] <= 0.0) continue;
+      centre[d] += half[d] * (2.0 * static_cast<double>(rest % static_cast<std::size_t>(to_a_side)) + 1.0 - to_a_side);
+      rest /= static_cast<std::size_t>(to_a_side);
+    }
+    visit(centre, half);
+  }
+}
+
+Prior guessed(Rng& rng, double deviation, double correlation) {
+  Prior made{{0.5, 0.1, -0.2, 0.3, 0.0, 3.0}, {0.0, 0.2, 0.1, 0.8, 0.0, 0.0}};
+  Matrix6 covariance = Matrix6::Identity();
+  PoseVector mean = made.centre, off{1.0, 0.1 * deviation, 0.1 * deviation, deviation, 1.0, 1.0};
+  for (int d = 0; d < 6; ++d) covariance(d, d) = off[static_cast<std::size_t>(d)] * off[static_cast<std::size_t>(d)];
+  covariance(1, 3) = covariance(3, 1) = correlation * off[1] * off[3];
+  for (const std::size_t d : {1u, 2u, 3u}) mean[d] += rng.uniform(-0.25, 0.25) * made.width[d];
+  made.guesses = {{Normal(mean, covariance, made.width), 0.9}};
+  return made;
+}
+
+/// However wide they are beside the guess, and wherever it lies in its box.
+TEST(PriorOverBoxes, GiveAllOfAGuessToTheBoxesInWhichItLies) {
+  Rng rng(21);
+  for (int i = 0; i < 40; ++i)
+    for (const double deviation : {0.1, 0.02, 0.004, 0.0005})
+      for (const int to_a_side : {1, 2, 5, 16}) {
+        const Prior known = guessed(rng, deviation, 0.0);
+        double mean = 0.0, boxes = 0.0;
+        for_boxes(known, to_a_side, [&](const PoseVector& centre, const PoseVector& half) {
+          mean += PriorOverBoxes(known, half).density(centre);
+          boxes += 1.0;
+        });
+        const double inside = deviation < 0.05 ? 1e-6 : 0.15;  // a wide guess is cut off at the ends
+        EXPECT_NEAR(mean / boxes, 1.0, inside) << deviation << " " << to_a_side;
+      }
+}
+
+TEST(PriorOverBoxes, AreTheDensityWhereBoxesAreSmallAndTheMeanOfSmallBoxesWhereTheyAreNot) {
+  Rng rng(22);
+  for (int i = 0; i < 30; ++i) {
+    const double correlation = i % 2 == 0 ? 0.0 : rng.uniform(-0.9, 0.9), deviation = rng.uniform(0.08, 0.2);
+    const Prior known = guessed(rng, deviation, correlation);
+    PoseVector half{0.0, 1e-4, 1e-4, 1e-3, 0.0, 0.0}, at = known.centre;
+    for (const std::size_t d : {1u, 2u, 3u}) at[d] += rng.uniform(-0.4, 0.4) * known.width[d];
+    const double density = known.density(at);
+    EXPECT_NEAR(PriorOverBoxes(known, half).density(at), density, 0.03 * density);
+    double off = 0.0, all = 0.0;
+    const int to_a_side = 4, parts = 6;
+    for_boxes(known, to_a_side, [&](const PoseVector& centre, const PoseVector& wide) {
+      Prior box{centre, {}};
+      for (std::size_t d = 0; d < 6; ++d) box.width[d] = 2.0 * wide[d];
+      double fine = 0.0;
+      for_boxes(box, parts,
+                [&](const PoseVector& c, const PoseVector&) { fine += known.density(c) / (parts * parts * parts); });
+      const double said = PriorOverBoxes(known, wide).density(centre);
+      off += std::abs(said - fine);
+      all += fine;
+    });
+    EXPECT_LT(off, (correlation == 0.0 ? 0.02 : 0.35) * all) << deviation << " " << correlation;
+  }
+}
+
 }  // namespace
 }  // namespace tactus::scene

@@ -210,5 +210,30 @@ TEST(Insertion, IsNotDoneByAContactShortOfTheSeat) {
   EXPECT_GT(stopped, 5);
 }
 
+/// The tolerance says how far before a reported stop the first contact may lie.
+TEST(Execution, ReportsStopsWithinTheToleranceHoweverCoarseTheActionsSteps) {
+  action::TaskOptions options;
+  options.stop_tolerance = 0.0003;
+  const auto task = std::make_shared<const action::Task>(small_scene(), options);
+  const Model strict = small_model(task, Kind::particles);
+  Rng rng(12);
+  int contacts = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Pose truth = geometry::pose_from(random_pose(task->scene().prior, rng));
+    World world(strict, truth, {1.0});
+    belief::Belief belief(strict, world.configuration());
+    const double y = rng.uniform(-0.03, 0.03), z = rng.uniform(-0.02, 0.04), x = 0.34 + rng.uniform(0.0, 0.004);
+    for (const JointVector& to : {joints({x, y, z, 0, 0, 0}), joints({0.44, y, z, 0, 0, 0})}) {
+      const action::Action action = action_round(*task, {world.configuration(), to});
+      const Observation seen = world.execute(action);
+      belief.step(action, seen);
+      contacts += seen.contact;
+    }
+    EXPECT_TRUE(belief::reproduces(*task, belief.history(), truth)) << i;
+    EXPECT_TRUE(belief.contains(truth)) << i;
+  }
+  EXPECT_GT(contacts, 10);
+}
+
 }  // namespace
 }  // namespace tactus::test
