@@ -8,33 +8,18 @@ import os
 import pathlib
 import pickle
 import signal
-import sys
 import threading
 import time
 
 import numpy as np
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-BUILD = pathlib.Path(os.environ.get("TACTUS_BUILD", ROOT / "build" / "release"))
-LIBRARY = BUILD / "lib" / "libtactus.so"
-SHELF = ROOT / "tests" / "capi" / "small_shelf.yaml"
+from built import SHELF, tactus
+from tactus import library
+
 REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 UNLIMITED = {"expansions": 2**64 - 1}
 LONG_WORD = "x" + 60 * "ä"  # every character but the first ends at an odd byte: wherever an even number is cut, one is halved
-
-if not LIBRARY.exists():
-    pytest.skip(f"{LIBRARY} is not built", allow_module_level=True)
-os.environ.setdefault("TACTUS_LIBRARY", str(LIBRARY))
-sys.path.insert(0, str(ROOT / "python_shim"))
-import tactus  # noqa: E402
-from tactus import library  # noqa: E402
-
-
-@pytest.fixture(scope="module")
-def scenario():
-    with tactus.Scenario.load(SHELF) as loaded:
-        yield loaded
 
 
 @pytest.fixture(scope="module")

@@ -3,30 +3,15 @@
 
 import json
 import os
-import pathlib
 import subprocess
 import sys
 
 import numpy as np
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-BUILD = pathlib.Path(os.environ.get("TACTUS_BUILD", ROOT / "build" / "release"))
-LIBRARY = BUILD / "lib" / "libtactus.so"
-SHELF = ROOT / "tests" / "capi" / "small_shelf.yaml"
+from built import BUILD, LIBRARY, ROOT, SHELF, tactus
+
 SEED, EXPANSIONS = 1, 2
-
-if not LIBRARY.exists():
-    pytest.skip(f"{LIBRARY} is not built", allow_module_level=True)
-os.environ.setdefault("TACTUS_LIBRARY", str(LIBRARY))
-sys.path.insert(0, str(ROOT / "python_shim"))
-import tactus  # noqa: E402
-
-
-@pytest.fixture(scope="module")
-def scenario():
-    with tactus.Scenario.load(SHELF) as loaded:
-        yield loaded
 
 
 @pytest.fixture(scope="module")
