@@ -95,6 +95,8 @@ TACTUS_API tactus_status tactus_instance_evaluate(const tactus_instance* instanc
 /**
  * The least expected cost that any policy can have, discounted as the instance's options say; NAN if more than
  * `most_beliefs` beliefs would have to be solved for it. `*beliefs`: how many were. Some ten microseconds a belief.
+ * Policies that make motions which change nothing are left out: with a discount so low that putting costs off pays
+ * (where a motion costs less than 1 - discount of what is still to come), one of those may cost less.
  */
 TACTUS_API tactus_status tactus_instance_optimum(const tactus_instance* instance, uint64_t most_beliefs,
                                                  double* optimum, uint64_t* beliefs) TACTUS_NOEXCEPT;

@@ -38,7 +38,7 @@ Model::Model(std::shared_ptr<const Task> t, const Options& o)
 Belief::Belief(std::shared_ptr<const Model> model, const JointVector& q) : model_(std::move(model)) {
   check_configuration(q, "q");
   q_ = q;
-  learn_anew();
+  begin();
   is_goal_ = is_seated();
 }
 
@@ -71,14 +71,21 @@ void Belief::step(const Action& action, const Observation& observation) {
   next.q_ = action.path[stop.last_free];
   if (!observation.contact && stop.segment > stop.last_free) next.q_ = observation.q;
   next.history_.push_back(trace_of(task(), action, observation, stop));
-  if (next.weighed_ || !next.learn({&next.history_.back()}) || !next.look_closer(*this)) next.weigh();
+  if (next.weighed_)
+    next.weigh();
+  else if (!next.learn({&next.history_.back()}) || !next.look_closer(*this))
+    next.suspect();
   next.is_goal_ = next.is_seated() || next.prove_seated();
   *this = std::move(next);
 }
 
-/// From the prior.
-void Belief::learn_anew() {
-  if (task().options().sensing.errs()) return weigh();
+/// With the prior, and no history.
+void Belief::begin() {
+  if (task().options().sensing.errs()) {
+    weighed_.emplace(task(), task().options().sensing, model_->options.cells);
+    weighed_->update(task(), history_);
+    return explain();
+  }
   if (model_->options.kind == Kind::hierarchical)
     voxels_.emplace(model_->voxels);
   else
@@ -111,20 +118,11 @@ bool Belief::refine() {
                         [&](const Cell& cell) { return may_be_seated && is_seated(base_from_tool, cell); });
 }
 
-/// Takes in what the history has beyond what was weighed.
+/// Takes in the last trace, of a robot that may err.
 void Belief::weigh() {
-  if (!weighed_ && task().options().sensing.errs())
-    weighed_.emplace(task(), task().options().sensing, model_->options.cells);
-  else if (weighed_)
-    history_.back() = retraced(task(), history_.back(), weighed_->sensing());
-  if (!weighed_ || !weighed_->update(task(), history_)) suspect();
-  for (Trace& trace : history_) trace.doubted = false;
-  for (const std::size_t trace : weighed_->doubted()) {
-    history_[trace].doubted = true;
-    health_ = Health::contradicted;
-  }
-  voxels_.reset();
-  cells_ = CellBelief::weighed(task(), model_->options.cells, weighed_->cells());
+  history_.back() = retraced(task(), history_.back(), weighed_->sensing());
+  if (weighed_->update(task(), history_)) return explain();
+  suspect();
 }
 
 /// The history can't have been without errors, or without more of them than were told: all of it is weighed, from the
@@ -135,6 +133,18 @@ void Belief::suspect() {
   for (Trace& trace : history_) trace = retraced(task(), trace, sensing);
   weighed_.emplace(task(), sensing, model_->options.cells);
   weighed_->update(task(), history_);
+  voxels_.reset();
+  explain();
+}
+
+/// Doubts what the likeliest explanation takes for wrong.
+void Belief::explain() {
+  for (Trace& trace : history_) trace.doubted = false;
+  for (const std::size_t trace : weighed_->doubted()) {
+    history_[trace].doubted = true;
+    health_ = Health::contradicted;
+  }
+  cells_ = CellBelief::weighed(task(), model_->options.cells, weighed_->cells());
 }
 
 const action::Sensing& Belief::sensing() const { return weighed_ ? weighed_->sensing() : task().options().sensing; }

@@ -138,11 +138,12 @@ class Belief {
   explicit Belief(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
   void check_configuration(const JointVector& q, const char* argument) const;
   bool learn(const std::vector<const Trace*>& traces);
-  void learn_anew();
+  void begin();
   bool hand_over();
   bool refine();
   void weigh();
   void suspect();
+  void explain();
   bool is_seated(const Pose& base_from_tool, const Cell& cell) const;
   bool is_seated() const;
   bool is_likely_seated() const;

@@ -232,7 +232,7 @@ class Draw {
         if (poses.size() + unproved < count_ && (drawn.miss == 0.0 || belief_.contains(drawn.pose)))
           poses.push_back(drawn);
       }
-    for (std::size_t i = 0; i < unproved || poses.size() < count_ / least_share; ++i) {
+    for (std::size_t i = 0; i < unproved || poses.size() < std::max<std::size_t>(1, count_ / least_share); ++i) {
       const Cell cell = cells_.draw_cell(rng_);
       poses.push_back({geometry::pose_from(cells_.draw_in(cell, rng_)), cells_.radius(cell)});
     }
@@ -262,8 +262,8 @@ std::vector<Drawn> Belief::draw(std::size_t count, support::Rng& rng, const std:
   return Draw(*this, count, rng, deadline).poses(known);
 }
 
-/// Of fine parts drawn by weight: exactly as the explanation of the part has it where that can be had. Of whole cells if
-/// no part of those drawn is possible, as where a fault that never happens is all that explains the history.
+/// Of fine parts drawn by weight: exactly as the explanation of the part has it where that can be had. Of whole cells
+/// if no part of those drawn is possible, as where a fault that never happens is all that explains the history.
 std::vector<Drawn> Belief::draw_explained(std::size_t count, support::Rng& rng,
                                           const support::Deadline& deadline) const {
   std::vector<Drawn> poses;

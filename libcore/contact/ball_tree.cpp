@@ -69,7 +69,8 @@ BallTree::BallTree(const Mesh& mesh, double piece_radius) {
   shells_ = static_cast<int>(shells.size());
   for (std::size_t shell = 0; shell < shells.size(); ++shell)
     for (const geometry::Triangle& t : shells[shell].triangles)
-      cut(geometry::corners(shells[shell], t), static_cast<int>(shell), piece_radius, pieces_);
+      if (geometry::has_area(shells[shell], t))
+        cut(geometry::corners(shells[shell], t), static_cast<int>(shell), piece_radius, pieces_);
   root_ = grow(0, pieces_.size(), geometry::TriangleTree(mesh));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "contact/solid.hpp"
+#include "support/error.hpp"
 
 namespace tactus::contact {
 namespace {
@@ -17,6 +18,21 @@ bool moves(const robot::RobotModel& model, int link) {
   return false;
 }
 
+/// A body is cut into pieces: of one whose unit was mistaken there would be millions of times as many.
+std::unique_ptr<const Body> cut_up(const Mesh& mesh, double piece_radius, const std::string& name) {
+  constexpr double most_pieces = 4e6;
+  double area = 0.0;
+  for (const geometry::Triangle& t : mesh.triangles) {
+    const geometry::Corners c = geometry::corners(mesh, t);
+    area += 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
+  }
+  if (area > most_pieces * piece_radius * piece_radius)
+    throw support::Error(support::Status::bad_mesh,
+                         name + ": found a mesh " + std::to_string(geometry::bounds(mesh).size().maxCoeff()) +
+                             " m long, expected one of a robot's size in metres; is a scale of 0.001 missing?");
+  return std::make_unique<Body>(mesh, piece_radius);
+}
+
 }  // namespace
 
 const geometry::Box RobotBodies::everywhere{Vector3::Constant(-1e300), Vector3::Constant(1e300)};
@@ -24,13 +40,13 @@ const geometry::Box RobotBodies::everywhere{Vector3::Constant(-1e300), Vector3::
 RobotBodies::RobotBodies(std::shared_ptr<const robot::RobotModel> model, int tool_link, const Mesh& tool,
                          const geometry::Box& region)
     : model_(std::move(model)), tool_link_(tool_link), region_(region) {
-  bodies_.push_back(std::make_unique<Body>(tool, tool_piece_radius));
+  bodies_.push_back(cut_up(tool, tool_piece_radius, "tool"));
   links_.push_back(tool_link);
   for (int link = static_cast<int>(model_->links.size()) - 1; link >= 0; --link) {
     Mesh mesh;
     for (const Mesh& shape : model_->links[link].shapes) geometry::append(mesh, shape);
     if (mesh.triangles.empty() || !moves(*model_, link)) continue;
-    bodies_.push_back(std::make_unique<Body>(mesh, link_piece_radius));
+    bodies_.push_back(cut_up(mesh, link_piece_radius, "link '" + model_->links[link].name + "'"));
     links_.push_back(link);
   }
 }

@@ -39,8 +39,10 @@ void check_mesh(const Mesh& mesh, const std::string& name) {
 void build(fcl::BVHModel<fcl::OBBd>& model, const Mesh& mesh, const std::string& name) {
   std::vector<fcl::Triangle> triangles;
   triangles.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles)
-    triangles.emplace_back(static_cast<std::size_t>(a), static_cast<std::size_t>(b), static_cast<std::size_t>(c));
+  for (const geometry::Triangle& t : mesh.triangles)
+    if (geometry::has_area(mesh, t))
+      triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
+                             static_cast<std::size_t>(t[2]));
   const bool built = model.beginModel() == fcl::BVH_OK && model.addSubModel(mesh.vertices, triangles) == fcl::BVH_OK &&
                      model.endModel() == fcl::BVH_OK;
   if (!built) throw Error(Status::bad_mesh, name + ": the collision tree could not be built");
@@ -52,7 +54,7 @@ void build(fcl::BVHModel<fcl::OBBd>& model, const Mesh& mesh, const std::string&
 Solid::Solid(const Mesh& mesh, const std::string& name) {
   check_mesh(mesh, name);
   const Mesh merged = geometry::merged_vertices(mesh);
-  if (merged.triangles.empty())
+  if (!geometry::has_area(merged))
     throw Error(Status::bad_mesh, name + ": found no triangle with an area, expected at least one");
   auto tree = std::make_shared<Tree>();
   build(tree->model, merged, name);

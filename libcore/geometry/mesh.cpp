@@ -14,11 +14,7 @@ constexpr double pi = std::numbers::pi;
 
 std::array<double, 3> key_of(const Vector3& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }
 
-bool degenerate(const Mesh& mesh, const Triangle& t) {
-  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
-  const Vector3& a = mesh.vertices[t[0]];
-  return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm() < 1e-16;
-}
+bool has_a_corner_twice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 /// Union-find over vertices joined by triangles.
 std::vector<int> component_of_vertices(const Mesh& mesh) {
@@ -34,6 +30,16 @@ std::vector<int> component_of_vertices(const Mesh& mesh) {
   }
   for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = root(static_cast<int>(v));
   return parent;
+}
+
+bool every_edge_has_its_opposite(const Mesh& mesh) {
+  std::map<std::pair<int, int>, int> balance;
+  for (const Triangle& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const int a = t[i], b = t[(i + 1) % 3];
+      balance[std::minmax(a, b)] += a < b ? 1 : -1;
+    }
+  return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
 }
 
 }  // namespace
@@ -152,15 +158,11 @@ double signed_volume(const Mesh& mesh) {
 }
 
 bool is_closed(const Mesh& mesh) {
-  const Mesh merged = merged_vertices(mesh);
-  std::map<std::pair<int, int>, int> balance;
-  for (const Triangle& t : merged.triangles)
-    for (int i = 0; i < 3; ++i) {
-      const int a = t[i], b = t[(i + 1) % 3];
-      balance[std::minmax(a, b)] += a < b ? 1 : -1;
-    }
-  return !merged.triangles.empty() &&
-         std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
+  Mesh merged = merged_vertices(mesh);
+  if (!has_area(merged)) return false;
+  if (every_edge_has_its_opposite(merged)) return true;
+  std::erase_if(merged.triangles, [&](const Triangle& t) { return !has_area(merged, t); });
+  return every_edge_has_its_opposite(merged);
 }
 
 Mesh merged_vertices(const Mesh& mesh) {
@@ -174,9 +176,19 @@ Mesh merged_vertices(const Mesh& mesh) {
   }
   for (const Triangle& t : mesh.triangles) {
     const Triangle candidate{renamed[t[0]], renamed[t[1]], renamed[t[2]]};
-    if (!degenerate(merged, candidate)) merged.triangles.push_back(candidate);
+    if (!has_a_corner_twice(candidate)) merged.triangles.push_back(candidate);
   }
   return merged;
+}
+
+bool has_area(const Mesh& mesh, const Triangle& t) {
+  const Vector3& a = mesh.vertices[t[0]];
+  return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm() >= 1e-16;
+}
+
+bool has_area(const Mesh& mesh) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
+                     [&](const Triangle& t) { return has_area(mesh, t); });
 }
 
 std::vector<Mesh> shells(const Mesh& mesh) {
@@ -196,7 +208,8 @@ std::vector<Mesh> shells(const Mesh& mesh) {
     shell.triangles.push_back(local);
   }
   std::vector<Mesh> result;
-  for (auto& [root, shell] : by_component) result.push_back(std::move(shell));
+  for (auto& [root, shell] : by_component)
+    if (has_area(shell)) result.push_back(std::move(shell));
   return result;
 }
 

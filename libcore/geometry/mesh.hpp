@@ -54,9 +54,16 @@ double largest_displacement(const Box& box, const Pose& from, const Pose& to);
 Sphere bounding_sphere(const Mesh& mesh);  ///< about the centre of the bounding box
 double diameter(const Mesh& mesh);         ///< D_max of the paper: the greatest distance between two of its points
 double signed_volume(const Mesh& mesh);
-bool is_closed(const Mesh& mesh);        ///< every edge has exactly one opposite, after equal vertices are merged
-Mesh merged_vertices(const Mesh& mesh);  ///< vertices with equal coordinates made one; degenerate triangles dropped
-/// The triangles' connected shells, each as a mesh of its own. `mesh` has merged vertices.
+/// Every edge has exactly one opposite, after equal vertices are merged: of all triangles, or of those that have an
+/// area.
+bool is_closed(const Mesh& mesh);
+/// Vertices with equal coordinates made one; triangles that have a corner twice then are dropped. Others without area
+/// stay: exporters close the gap with them where a vertex stands on another triangle's edge.
+Mesh merged_vertices(const Mesh& mesh);
+bool has_area(const Mesh& mesh, const Triangle& triangle);  ///< its corners are not on a line
+bool has_area(const Mesh& mesh);                            ///< some triangle has
+/// The triangles' connected shells, each as a mesh of its own, without those that have no area. `mesh` has merged
+/// vertices.
 std::vector<Mesh> shells(const Mesh& mesh);
 /// Turns shells that are inside out (negative volume) right. Only closed shells are touched.
 void orient_outward(Mesh& mesh);

@@ -129,7 +129,7 @@ Mesh load_mesh(const std::filesystem::path& path, const Vector3& scale, const Me
   apply_scale(mesh, scale);
   check_finite(path, mesh);
   mesh = merged_vertices(mesh);
-  if (mesh.triangles.empty()) fail(Status::bad_mesh, path, "only triangles without area", "one with area");
+  if (!has_area(mesh)) fail(Status::bad_mesh, path, "only triangles without area", "one with area");
   orient_outward(mesh);
   return mesh;
 }

@@ -36,7 +36,8 @@ TriangleTree::TriangleTree(const Mesh& mesh) {
   for (const Mesh& shell : shells(merged_vertices(mesh))) {
     const bool solid = is_closed(shell);
     solid_ = solid_ || solid;
-    for (const Triangle& t : shell.triangles) faces_.push_back({corners(shell, t), solid});
+    for (const Triangle& t : shell.triangles)
+      if (has_area(shell, t)) faces_.push_back({corners(shell, t), solid});
   }
   nodes_.reserve(2 * faces_.size());
   nodes_.emplace_back();

@@ -26,7 +26,7 @@ constexpr double aim = 0.7;               // of a budget in seconds, to weigh th
 constexpr double in_time = 0.95;          // of a budget in seconds: what is in hand then still has to be finished
 constexpr double with_way = 0.88;         // the same where the ways to motions are weighed after it,
 constexpr double to_weigh_ways = 0.94;    // and the same for those
-constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted
+constexpr std::size_t least_support = 8;  // poses below which a computed policy is not trusted; so many are drawn
 
 /// What a motion was thought to cost all the way, with the way to its start, however far its outcomes go.
 double full_cost(const Choice& choice) {
@@ -165,7 +165,8 @@ void Planner::predict(const belief::Belief& belief) {
 /// Poses to plan on, by all that was seen so far: with bounds as many as fit, and many as long as nothing was met.
 std::vector<belief::Drawn> Planner::draw(const belief::Belief& belief, const support::Deadline& deadline) {
   const double times = !is_bounded() ? 1.0 : has_met_something(belief.history()) ? sample_after_ : sample_;
-  const auto most = static_cast<std::size_t>(times * static_cast<double>(model_->options.particles));
+  const auto most =
+      std::max(least_support, static_cast<std::size_t>(times * static_cast<double>(model_->options.particles)));
   if (belief.phase() == belief::Phase::poses) return belief.draw(most, rng_, poses_, deadline);
   return belief.draw_feasible(most, rng_, poses_, deadline);
 }
@@ -174,7 +175,7 @@ BeliefStatePtr Planner::on_voxels(const belief::Belief& belief, const support::D
   poses_ = model_->options.likelihood == belief::Likelihood::calibrated
                ? belief.draw_feasible(model_->options.particles, rng_, poses_, deadline)
                : std::vector<belief::Drawn>{};
-  return std::make_shared<VoxelProblem>(model_, library_, belief::poses_of(poses_), options_.cost_per_bit)
+  return std::make_shared<VoxelProblem>(model_, library_, belief::poses_of(poses_), options_.cost_per_bit, &cancelled_)
       ->start(belief.configuration(), belief.voxels());
 }
 

@@ -44,10 +44,11 @@ std::string escaped(const std::string& plain) {
   return result;
 }
 
-/// One line.
+/// One line, without what XML has no way to say.
 std::string description(const Instance& instance) {
   std::string name = instance.name;
-  std::replace(name.begin(), name.end(), '\n', ' ');
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
   return name + ": " + std::to_string(instance.weight.size()) + " poses, " +
          std::to_string(instance.configurations.size()) + " configurations, " +
          std::to_string(instance.motions.size()) + " motions. Rewards are costs, negated.";

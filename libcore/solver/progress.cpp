@@ -21,7 +21,7 @@ bool Progress::note(const belief::Belief& belief, const std::optional<HandedOut>
   const bool goes_on = history.size() >= observations_ && belief::fingerprint(history, observations_) == history_;
   if (!goes_on) *this = {};
   const bool is_first = q_.size() == 0;
-  const bool asked_again = !is_first && history.size() == observations_ && belief.health() == belief::Health::good;
+  const bool asked_again = !is_first && history.size() == observations_;
   if (asked_again) return goes_on;
 
   const std::size_t size =

@@ -318,11 +318,26 @@ class Maker {
   Instance made_;
 };
 
+/// Whether some motion can be made for nothing.
+bool costs_nothing(const Instance& instance) {
+  for (const Instance::Configuration& configuration : instance.configurations)
+    for (const Instance::Results& results : configuration.results)
+      for (const Instance::Result& result : results)
+        if (!(result.cost > 0.0)) return true;
+  return false;
+}
+
 }  // namespace
 
 Instance sampled_instance(const action::Task& task, const SampleOptions& options, support::Rng& rng) {
   check(options);
-  return Maker(task, options).make(rng);
+  Instance made = Maker(task, options).make(rng);
+  if (costs_nothing(made))
+    throw Error(
+        Status::invalid_argument,
+        "cost: found weights by which a motion costs nothing, expected cost.action above 0: nothing is lost then "
+        "by going back and forth for ever");
+  return made;
 }
 
 }  // namespace tactus::solver

@@ -135,7 +135,7 @@ class VoxelState : public BeliefState {
       if (choice.outcomes.size() > 1 || moves) result.push_back(std::move(choice));
     };
     for (const MotionPtr& motion : problem_->anchored(voxels_, q_)) consider(motion);
-    for (const MotionPtr& motion : problem_->library_->primitives_at(q_)) consider(motion);
+    for (const MotionPtr& motion : problem_->library_->primitives_at(q_, problem_->cancellation())) consider(motion);
     if (at_start_) problem_->price_bits(bits_left(), result);
     return result;
   }
@@ -287,10 +287,10 @@ class VoxelState : public BeliefState {
 };
 
 VoxelProblem::VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library,
-                           std::vector<Pose> poses, double cost_per_bit)
+                           std::vector<Pose> poses, double cost_per_bit, support::Cancellation cancellation)
     : model_(std::move(model)),
       library_(std::move(library)),
-      predictions_(model_->task, std::move(poses)),
+      predictions_(model_->task, std::move(poses), 0.0, {}, 1, cancellation),
       least_cost_per_bit_(cost_per_bit),
       cost_per_bit_(cost_per_bit) {
   for (const Vector3& v : model_->task->scene().tool.vertices) tool_reach_ = std::max(tool_reach_, v.norm());
@@ -329,13 +329,11 @@ const SweptVoxels& VoxelProblem::swept(const MotionPtr& motion) {
 }
 
 const std::vector<MotionPtr>& VoxelProblem::anchored(const VoxelBelief& voxels, const JointVector& near) {
-  if (!anchored_made_) {
-    const Box box =
-        box_of(voxels.possibly_occupied(), voxels.model().grid, model_->task->frame().base_from_search.inverse());
-    anchored_ = library_->probes_in(box.inflated(0.5 * voxels.model().grid.pitch()), near, lines_per_side);
-  }
-  anchored_made_ = true;
-  return anchored_;
+  if (anchored_) return *anchored_;
+  const Box box =
+      box_of(voxels.possibly_occupied(), voxels.model().grid, model_->task->frame().base_from_search.inverse());
+  return anchored_.emplace(
+      library_->probes_in(box.inflated(0.5 * voxels.model().grid.pitch()), near, lines_per_side, cancellation()));
 }
 
 double VoxelProblem::bits_to_delta(double count) const {

@@ -28,9 +28,9 @@ std::vector<double> first_contact_probabilities(const std::vector<double>& conta
 class VoxelProblem : public std::enable_shared_from_this<VoxelProblem> {
  public:
   /// `poses`: feasible poses of the target, for the calibrated likelihood; empty for the paper's. `cost_per_bit`: the
-  /// least that a bit is worth to h_inad.
+  /// least that a bit is worth to h_inad. What takes time throws `Cancelled` when `cancellation` does.
   VoxelProblem(std::shared_ptr<const belief::Model> model, std::shared_ptr<action::ActionLibrary> library,
-               std::vector<geometry::Pose> poses, double cost_per_bit);
+               std::vector<geometry::Pose> poses, double cost_per_bit, support::Cancellation cancellation = {});
 
   /// The belief at the start. What a bit is worth to the heuristics of what follows depends on its choices: they are to
   /// be asked for first.
@@ -42,6 +42,7 @@ class VoxelProblem : public std::enable_shared_from_this<VoxelProblem> {
 
  private:
   friend class VoxelState;
+  const support::Cancellation& cancellation() const { return predictions_.cancellation(); }
   const contact::SweptVoxels& swept(const action::MotionPtr& motion);
   const std::vector<action::MotionPtr>& anchored(const belief::VoxelBelief& voxels, const robot::JointVector& near);
   double bits_to_delta(double count) const;
@@ -54,8 +55,7 @@ class VoxelProblem : public std::enable_shared_from_this<VoxelProblem> {
   double least_cost_per_bit_;
   double cost_per_bit_;      ///< of h_inad, from the greedy rate at the start
   double tool_reach_ = 0.0;  ///< m from the tool frame's origin to the tool's farthest vertex
-  std::vector<action::MotionPtr> anchored_;
-  bool anchored_made_ = false;
+  std::optional<std::vector<action::MotionPtr>> anchored_;
   std::unordered_map<const action::Motion*, contact::SweptVoxels> swept_;
   std::vector<action::MotionPtr> kept_;
 };

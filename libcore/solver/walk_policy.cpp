@@ -23,10 +23,10 @@ WalkPolicy::WalkPolicy(std::shared_ptr<const action::Task> task, std::shared_ptr
 /// By pose that it touches, the rest of what it costs from the step's beginning: as if all were still possible that the
 /// step touches.
 const std::vector<double>& WalkPolicy::after_step(std::size_t place, std::size_t direction) {
-  std::vector<double>& costs = costs_after_[place * action::Lattice::directions + direction];
-  if (!costs.empty()) return costs;
+  std::vector<double>& known = costs_after_[place * action::Lattice::directions + direction];
+  if (!known.empty()) return known;
   const MotionPtr motion = walks_.lattice().step(place, direction, predictions_.cancellation());
-  costs.assign(predictions_.poses().size(), 0.0);
+  std::vector<double> costs(predictions_.poses().size(), 0.0);
   const Bitset& met = walks_.step(place, direction).touched;
   for (const Group& group : predictions_.split(motion, met, least_group(met.count(), dimensions_))) {
     if (group.first >= motion->path.size()) continue;
@@ -37,7 +37,7 @@ const std::vector<double>& WalkPolicy::after_step(std::size_t place, std::size_t
     const std::vector<double> then = after_.costs(poses, motion->bodies.base_from_body(group.first - 1, 0));
     for (std::size_t i = 0; i < poses.size(); ++i) costs[poses[i]] = motion->cost_to[group.first] + then[i];
   }
-  return costs;
+  return known = std::move(costs);
 }
 
 double WalkPolicy::cost(const Members& members, const Pose& base_from_tool, std::size_t beam) {

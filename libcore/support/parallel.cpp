@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -21,7 +22,7 @@ std::size_t thread_count(int threads) {
 }
 
 void for_ranges(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& work) {
-  const std::size_t workers = count < least_count ? 1 : thread_count(threads);
+  const std::size_t workers = count < least_count ? 1 : std::min(count, thread_count(threads));
   if (workers == 1) return work(0, count);
   const std::size_t size = count / (workers * ranges_per_thread) + 1;
   std::atomic<std::size_t> next{0};
@@ -38,7 +39,10 @@ void for_ranges(std::size_t count, int threads, const std::function<void(std::si
   };
   {
     std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < workers; ++i) others.emplace_back(run);
+    try {
+      for (std::size_t i = 1; i < workers; ++i) others.emplace_back(run);
+    } catch (const std::system_error&) {  // no more threads are to be had: with those that there are
+    }
     run();
   }
   if (failure) std::rethrow_exception(failure);

@@ -70,5 +70,14 @@ TEST(Task, APostureIsFreeAndPutsTheToolThere) {
   EXPECT_FALSE(task->posture(inside_the_post, task->home()));
 }
 
+TEST(Task, OfAToolInMillimetresSaysWhatIsMissing) {
+  scene::Scene scene = small_scene();
+  for (Vector3& v : scene.tool.vertices) v *= 1000.0;
+  std::string text;
+  EXPECT_EQ(status_of(scene, &text), Status::bad_mesh);
+  EXPECT_EQ(text.rfind("tool: ", 0), 0u) << text;
+  EXPECT_NE(text.find("scale of 0.001"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace tactus::test

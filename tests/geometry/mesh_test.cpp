@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "contact/plain_contact.hpp"
+#include "geometry/triangle_tree.hpp"
 #include "support/rng.hpp"
 
 namespace tactus::geometry {
@@ -102,15 +103,38 @@ TEST(Closed, MeansThatEveryEdgeHasItsOpposite) {
   EXPECT_FALSE(is_closed({}));
 }
 
-TEST(MergedVertices, AreEachThereOnceAndNoTriangleIsWithoutAnArea) {
+TEST(MergedVertices, AreEachThereOnceAndNoTriangleHasOneTwice) {
   Mesh pieces = in_pieces(box_mesh({0.1, 0.2, 0.3}));
   pieces.triangles.push_back({0, 1, 1});
   pieces.vertices.push_back(0.5 * (pieces.vertices[0] + pieces.vertices[1]));
   pieces.triangles.push_back({0, static_cast<std::int32_t>(pieces.vertices.size()) - 1, 1});
   const Mesh merged = merged_vertices(pieces);
-  EXPECT_EQ(merged.vertices.size(), 9u);  // that of the dropped triangle, too
-  EXPECT_EQ(merged.triangles.size(), 12u);
+  EXPECT_EQ(merged.vertices.size(), 9u);
+  EXPECT_EQ(merged.triangles.size(), 13u);
+  EXPECT_EQ(std::count_if(merged.triangles.begin(), merged.triangles.end(),
+                          [&](const Triangle& t) { return has_area(merged, t); }),
+            12);
+  EXPECT_TRUE(is_closed(merged));
   EXPECT_NEAR(signed_volume(merged), 0.006, 1e-15);
+}
+
+/// As exporters write them: a vertex in the middle of an edge, of the triangle on one side of it alone, and a triangle
+/// without area between.
+TEST(IsClosed, WhereATriangleWithoutAreaClosesTheGapAtAVertexOnAnEdge) {
+  Mesh split = box_mesh({0.1, 0.2, 0.3});
+  const Triangle whole = split.triangles.front();
+  const auto middle = static_cast<std::int32_t>(split.vertices.size());
+  split.vertices.push_back(
+      0.5 * (split.vertices[static_cast<std::size_t>(whole[0])] + split.vertices[static_cast<std::size_t>(whole[1])]));
+  split.triangles.front() = {whole[0], middle, whole[2]};
+  split.triangles.push_back({middle, whole[1], whole[2]});
+  EXPECT_FALSE(is_closed(split));
+  split.triangles.push_back({whole[0], whole[1], middle});
+  EXPECT_TRUE(is_closed(split));
+  const TriangleTree tree(split);
+  EXPECT_TRUE(tree.contains(Vector3::Zero()));
+  EXPECT_NEAR(tree.distance(Vector3(0.02, 0, 0)), 0.03, 1e-12);
+  ASSERT_EQ(shells(merged_vertices(in_pieces(split))).size(), 1u);
 }
 
 TEST(MergedVertices, TakeMinusZeroForZero) {

@@ -273,7 +273,7 @@ def test_a_finished_comparison_runs_nothing(shelf, whole, tmp_path):
     assert document["trials"] == whole[1]["trials"]
 
 
-@pytest.mark.parametrize("name", ["sim_5d", "shelf_3d", "sim_5d_poses"])
+@pytest.mark.parametrize("name", ["sim_5d", "shelf_3d", "shelf_3d_more", "sim_5d_voxels", "sim_5d_poses"])
 def test_kept_results_can_be_gone_on_with(name, tmp_path):
     kept = (ROOT / "examples" / "results" / f"{name}.json").read_text()
     path = tmp_path / "kept.json"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <numeric>
 
 #include "belief/plain_world.hpp"
@@ -94,6 +95,15 @@ TEST(Forecast, OnPosesIsTheShareOfThoseDrawn) {
       ASSERT_NEAR(found[i], expected[i] / static_cast<double>(poses.size()), 1e-12);
     ASSERT_NEAR(std::accumulate(found.begin(), found.end(), 0.0), 1.0, 1e-12);
   }
+}
+
+TEST(VoxelProblem, IsCancelledBeforeItHasMadeItsMotions) {
+  const std::atomic<bool> cancelled{true};
+  const belief::Belief belief(model(Kind::hierarchical), task()->scene().start);
+  const auto problem = std::make_shared<solver::VoxelProblem>(
+      belief.shared_model(), std::make_shared<action::ActionLibrary>(*task()), std::vector<Pose>{}, 0.035, &cancelled);
+  const solver::BeliefStatePtr start = problem->start(belief.configuration(), belief.voxels());
+  EXPECT_THROW(start->choices(support::Deadline::unlimited()), support::Cancelled);
 }
 
 }  // namespace

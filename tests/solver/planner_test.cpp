@@ -299,5 +299,36 @@ TEST(Chance, OfAPlannerIsItsOwn) {
   EXPECT_GT(differ, 2);
 }
 
+TEST(Query, PlansOnAFewPosesHoweverFewAreAskedFor) {
+  for (const std::size_t particles : {1u, 3u})
+    for (const Solver solver : {Solver::brtdp_bel, Solver::rtdp_bel, Solver::rate}) {
+      belief::Options options = model(Kind::particles)->options;
+      options.particles = particles;
+      const auto few = std::make_shared<const belief::Model>(task(), options);
+      Planner planner(few, within(2, solver));
+      Belief belief(few, task()->scene().start);
+      const PlainWorld world(*task(), task()->scene().prior.central_pose());
+      for (int i = 0; i < 6; ++i) {
+        const Answer answer = planner.query(belief);
+        if (answer.kind != Answer::Kind::action) break;
+        belief.step(*answer.action, world.execute(*answer.action));
+      }
+    }
+}
+
+/// Nothing was done in between, whether observations contradict each other or not.
+TEST(Query, AskedAgainSetsNothingAside) {
+  Belief belief(model(Kind::particles), task()->scene().start);
+  const JointVector q = belief.configuration(), aside = q - joints({0.002, 0, 0, 0, 0, 0});
+  belief.step(action_along(*task(), {q, aside}), {true, aside});
+  ASSERT_EQ(belief.health(), belief::Health::contradicted);
+  Planner planner(model(Kind::particles), within(2, Solver::rate));
+  for (int i = 0; i < 8; ++i) {
+    ASSERT_EQ(planner.query(belief).kind, Answer::Kind::action);
+    for (const solver::Alternative& alternative : planner.alternatives())
+      EXPECT_NE(alternative.verdict, solver::Verdict::set_aside) << i;
+  }
+}
+
 }  // namespace
 }  // namespace tactus::test

@@ -144,5 +144,18 @@ TEST(SampledInstance, EverySolverInsertsAtEveryPoseAndNoneBeatsTheOptimum) {
   }
 }
 
+TEST(SampledInstance, IsNotCutOutWhereMotionsCostNothing) {
+  action::TaskOptions options = task().options();
+  options.cost = {0.0, 0.0, 0.0};
+  const action::Task free(task().scene(), options);
+  Rng rng(1);
+  try {
+    solver::sampled_instance(free, {.poses = 6, .configurations = 20, .motions = 4}, rng);
+    ADD_FAILURE();
+  } catch (const support::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("cost.action"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace tactus::test
