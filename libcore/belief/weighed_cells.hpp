@@ -60,7 +60,8 @@ class WeighedCells {
   std::vector<std::size_t> doubted() const;
 
   /// `count` parts of cells of at most `radius` (m) drawn by weight: cells are halved, and again and again `count` are
-  /// drawn of the halves. Stops early, with coarser parts, after `latest_draw`; none if no half of those drawn is possible.
+  /// drawn of the halves. Stops early, with coarser parts, after `latest_draw`; none if no half of those drawn is
+  /// possible.
   std::vector<Weighed> draw_parts(const Task& task, const std::vector<Trace>& history, std::size_t count, double radius,
                                   support::Rng& rng,
                                   const support::Deadline& deadline = support::Deadline::unlimited()) const;

@@ -16,7 +16,8 @@ struct MeshFileLimits {
 
 /// Reads an STL, OBJ, PLY or DAE file as one mesh in metres: every part of it, with the transformations inside the file
 /// and the unit that a DAE file states applied, its up-axis ignored (as ROS does); then `scale` by axis (a negative one
-/// flips the triangles). Equal vertices are merged, triangles that have one twice dropped, closed shells oriented outward.
+/// flips the triangles). Equal vertices are merged, triangles that have one twice dropped, closed shells oriented
+/// outward.
 ///
 /// The importer is a program of its own with memory and time limits (`importer_process.hpp`): a bad file is an error
 /// and not a crash. Throws `file_not_found`, `file_unreadable` or `bad_mesh` naming the file, what was found and what
