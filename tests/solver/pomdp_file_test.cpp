@@ -323,7 +323,7 @@ TEST(PomdpFile, NothingButTheGoalIsFree) {
 TEST(PomdpFile, ANameMayHoldAnything) {
   Rng rng(4);
   Instance instance = *random_instance(rng, {.poses = 3, .probes = 1, .configurations = 2});
-  instance.name = "a<b> &\nstates: \"c\"";
+  instance.name = "a<b> &\nstates: \"c\"\r\a\x01T: * : * uniform";
   expect_is(read_pomdp(solver::pomdp(instance)), instance, false);
   expect_is(read_pomdpx(solver::pomdpx(instance)), instance, true);
 }
