@@ -300,6 +300,7 @@ TEST(Chance, OfAPlannerIsItsOwn) {
 }
 
 TEST(Query, PlansOnAFewPosesHoweverFewAreAskedFor) {
+  int after_a_contact = 0;
   for (const std::size_t particles : {1u, 3u})
     for (const Solver solver : {Solver::brtdp_bel, Solver::rtdp_bel, Solver::rate}) {
       belief::Options options = model(Kind::particles)->options;
@@ -311,9 +312,13 @@ TEST(Query, PlansOnAFewPosesHoweverFewAreAskedFor) {
       for (int i = 0; i < 6; ++i) {
         const Answer answer = planner.query(belief);
         if (answer.kind != Answer::Kind::action) break;
+        after_a_contact += belief::has_met_something(belief.history());
         belief.step(*answer.action, world.execute(*answer.action));
+        Rng rng(static_cast<std::uint64_t>(i));
+        EXPECT_FALSE(belief.draw(particles, rng).empty());
       }
     }
+  EXPECT_GT(after_a_contact, 5);
 }
 
 /// Nothing was done in between, whether observations contradict each other or not.
